@@ -1,0 +1,45 @@
+"""What a coach is told, and what it answers: the surface against which a new coach is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from game.coach.records import CoachRecord
+from game.world.building import Building
+from game.world.events import MissionEvent
+from game.world.observation import Guidance, Observation
+from game.world.settings import MissionSettings
+
+
+@dataclass(frozen=True)
+class Briefing:
+    """All that a coach receives before a mission. Nothing about the person who will play it."""
+
+    building: Building
+    settings: MissionSettings
+    seed: int = 0
+
+
+class Coach(Protocol):
+    """Anything that turns observations of the rescuer into instructions.
+
+    The session calls `begin` once at 0 ms; then, in time order, `told` for every mission event
+    (the observation is the one right after it) and `evaluate` when `next_evaluation_ms` falls due.
+    Each call returns what the coach did, in order, for the journal. `guidance` is what stands on
+    the bar after the call. A coach never reads a clock: all times are mission milliseconds.
+    """
+
+    @property
+    def guidance(self) -> Guidance: ...
+
+    @property
+    def next_evaluation_ms(self) -> int | None:
+        """When the coach next wants to evaluate by itself; None for never."""
+        ...
+
+    def begin(self, observation: Observation) -> list[CoachRecord]: ...
+
+    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]: ...
+
+    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]: ...

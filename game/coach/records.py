@@ -1,0 +1,128 @@
+"""What a coach did: tagged structs, written to the journal as they are."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Literal
+
+import msgspec
+
+from game.world.geometry import Cell, Heading
+
+
+class Level(IntEnum):
+    """The level of abstraction of an instruction (paper 5.1.2)."""
+
+    C1 = 1
+    C2 = 2
+    C3 = 3
+
+
+class CoachAct(msgspec.Struct, frozen=True, tag_field="type"):
+    """Something the coach did at mission time `at_ms`."""
+
+    at_ms: int
+
+
+class GoalSet(CoachAct, frozen=True, tag="goal_set"):
+    """The victim to rescue next. `route` is the planned order from here, goal first."""
+
+    goal: str
+    room: str | None
+    route: tuple[str, ...]
+    reason: Literal["start", "rescued", "expired", "strayed", "other_rescued"]
+
+
+class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued"):
+    """A new text on the bar.
+
+    `level` is the level in force, `shown_level` that of the words: lower where `fallback` is true
+    because no instruction of `level` exists here. `tuples` are (action, object) pairs. `end` is
+    where carrying it out leads; `treats` tells whether it ends in a treatment.
+    """
+
+    number: int
+    goal: str
+    level: Level
+    shown_level: Level
+    fallback: bool
+    tuples: tuple[tuple[str, str], ...]
+    text: str
+    notice: str
+    position: Cell
+    heading: Heading
+    end: Cell
+    treats: bool
+    reason: Literal["goal", "completed", "level", "off_path", "misstep", "resumed"]
+
+
+class InstructionCompleted(CoachAct, frozen=True, tag="instruction_completed"):
+    number: int
+
+
+class Misstep(CoachAct, frozen=True, tag="misstep"):
+    """The cost-to-go rose `excess` cells above its minimum since instruction `number`."""
+
+    number: int
+    level: Level
+    excess: int
+
+
+class Disobeyed(CoachAct, frozen=True, tag="disobeyed"):
+    number: int
+    kind: Literal["repeat_misstep", "other_victim"]
+
+
+class PosteriorEvaluated(CoachAct, frozen=True, tag="posterior_evaluated"):
+    """P(g* | path) at an evaluation, with the whole posterior over the waiting victims.
+
+    `comprehension` is the P(g*) that is compared with the thresholds (at the victim or the room,
+    as the preset says); `moves` counts the moves in the window; `evidence` is false where the
+    preset holds that the window carries none, and then `verdict` is `none`.
+    """
+
+    goal: str
+    posterior: dict[str, float]
+    comprehension: float
+    moves: int
+    lower_below: float
+    raise_above: float
+    verdict: Literal["lower", "keep", "raise", "none"]
+
+
+class LevelChanged(CoachAct, frozen=True, tag="level_changed"):
+    before: Level
+    after: Level
+    comprehension: float
+
+
+class BeliefChanged(CoachAct, frozen=True, tag="belief_changed"):
+    """The coach's estimate b^HR of what the rescuer believes has changed (paper 5.1.3).
+
+    `rooms_learned` are rooms whose place became known, `victims_seen` victims whose cell became
+    known, `unseen_cells` how many cells the victims still unseen may be in.
+    """
+
+    rooms_learned: tuple[str, ...]
+    victims_seen: tuple[str, ...]
+    victims_resolved: tuple[str, ...]
+    unseen_cells: int
+
+
+class PaceLearned(CoachAct, frozen=True, tag="pace_learned"):
+    """The learned A^HR: how many milliseconds the rescuer takes for a move."""
+
+    ms_per_move: float
+
+
+CoachRecord = (
+    GoalSet
+    | InstructionIssued
+    | InstructionCompleted
+    | Misstep
+    | Disobeyed
+    | PosteriorEvaluated
+    | LevelChanged
+    | BeliefChanged
+    | PaceLearned
+)

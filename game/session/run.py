@@ -1,0 +1,120 @@
+"""A mission and a coach played together: pacing, the order of things, and what is recorded.
+
+Times are mission milliseconds, given by the caller: a screen passes its clock, a simulation a
+virtual one, a replay the logged times.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from game.coach.api import Coach
+from game.coach.records import CoachRecord
+from game.world.events import Action, MissionEvent
+from game.world.mission import Due, Mission, Order
+from game.world.observation import Observation
+
+RunRecord = MissionEvent | CoachRecord
+Recorder = Callable[[RunRecord], None]
+
+
+class _Pending(NamedTuple):
+    action: Action
+    due_ms: int
+    pressed_ms: int
+
+
+class MissionRun:
+    """One mission with its coach.
+
+    `record` receives everything that happens, in order: it must have made an action durable when
+    it returns, because the caller paints only after that.
+    """
+
+    def __init__(self, mission: Mission, coach: Coach, record: Recorder) -> None:
+        self.mission = mission
+        self.coach = coach
+        self._record = record
+        self._next_move_ms = 0
+        self._pending: _Pending | None = None
+
+    @property
+    def ended(self) -> bool:
+        return self.mission.ended
+
+    @property
+    def next_due_ms(self) -> int | None:
+        """When something happens next without a key; None once the mission has ended."""
+        if self.ended:
+            return None
+        due_ms = self._next_due().at_ms
+        return due_ms if self._pending is None else min(due_ms, self._pending.due_ms)
+
+    def begin(self) -> None:
+        """Let the coach give its first instruction. Call once, at 0 ms."""
+        self._note(self.coach.begin(self.mission.observation()))
+
+    def observation(self) -> Observation:
+        return self.mission.observation(self.coach.guidance)
+
+    def press(self, action: Action, now_ms: int) -> None:
+        """A key was pressed. Inside the pace a move waits for its moment and replaces one that
+        still waits; triage acts at once."""
+        self.advance(now_ms)
+        self._pending = None
+        if action is Action.TRIAGE or now_ms >= self._next_move_ms:
+            self._act(action, now_ms, now_ms)
+        else:
+            self._pending = _Pending(action, self._next_move_ms, now_ms)
+
+    def advance(self, now_ms: int) -> None:
+        """Let everything happen that is due by `now_ms`, each at its own time."""
+        while not self.ended:
+            pending = self._pending
+            if pending is not None and pending.due_ms <= now_ms:
+                self._fire_until(pending.due_ms)
+                self._pending = None
+                self._act(pending.action, pending.due_ms, pending.pressed_ms)
+            else:
+                self._fire_until(now_ms)
+                break
+        if not self.ended:
+            self._tell(self.mission.step(None, now_ms))
+
+    def act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
+        """Carry out an action at its recorded time, as a replay does: pacing is already in it."""
+        self.advance(at_ms)
+        self._act(action, at_ms, pressed_ms)
+
+    def _act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
+        if self.ended:
+            return
+        if action is not Action.TRIAGE:
+            self._next_move_ms = at_ms + self.mission.settings.pace_ms
+        self._tell(self.mission.step(action, at_ms, pressed_ms))
+
+    def _next_due(self) -> Due:
+        due = self.mission.next_due
+        assert due is not None
+        evaluation_ms = self.coach.next_evaluation_ms
+        if evaluation_ms is not None:
+            due = min(due, Due(evaluation_ms, Order.EVALUATION))
+        return due
+
+    def _fire_until(self, now_ms: int) -> None:
+        while not self.ended and (due := self._next_due()).at_ms <= now_ms:
+            if due.order is Order.EVALUATION:
+                self.mission.pass_time(due.at_ms)
+                self._note(self.coach.evaluate(due.at_ms, self.mission.observation()))
+            else:
+                self._tell(self.mission.fire_next())
+
+    def _tell(self, events: Iterable[MissionEvent]) -> None:
+        for event in events:
+            self._record(event)
+            self._note(self.coach.told(event, self.mission.observation()))
+
+    def _note(self, records: Iterable[CoachRecord]) -> None:
+        for record in records:
+            self._record(record)

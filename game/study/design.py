@@ -1,0 +1,87 @@
+"""The experimental design: 24 design cells, allocated in seeded permuted blocks (design 7).
+
+A block of 24 slots is two half-blocks of 12. A half-block has every memorise time x order x
+static level once; which building comes first follows from those three, and is complemented in the
+other half, so that a block has every design cell once and every half-block is balanced by itself.
+The order of slots comes from hashes of the seed: the same on every machine and Python.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from hashlib import sha256
+from itertools import product
+
+import msgspec
+
+from game.coach.records import Level
+
+HALF_BLOCK = 12
+BLOCK = 2 * HALF_BLOCK
+
+
+class Instructor(StrEnum):
+    """Who coaches a round."""
+
+    STATIC = "static"
+    ADAPTIVE = "adaptive"
+
+
+class DesignCell(msgspec.Struct, frozen=True, order=True):
+    """One of the 24 combinations of conditions a participant can be given.
+
+    `long_memorise` picks the longer of the two memorise times; `first_building` is the index (0
+    or 1) of the building of the first round, the other one is that of the second.
+    """
+
+    long_memorise: bool
+    adaptive_first: bool
+    static_level: Level
+    first_building: int
+
+    @property
+    def instructors(self) -> tuple[Instructor, Instructor]:
+        """Who coaches the first round, and who the second."""
+        if self.adaptive_first:
+            return Instructor.ADAPTIVE, Instructor.STATIC
+        return Instructor.STATIC, Instructor.ADAPTIVE
+
+    @property
+    def buildings(self) -> tuple[int, int]:
+        """The building indices of both rounds."""
+        return self.first_building, 1 - self.first_building
+
+    @property
+    def code(self) -> str:
+        """A short name: memorise time, order, level and first building, as `1-SA-C2-b0`."""
+        memorise = "3" if self.long_memorise else "1"
+        order = "AS" if self.adaptive_first else "SA"
+        return f"{memorise}-{order}-{self.static_level.name}-b{self.first_building}"
+
+
+def half_block(complemented: bool) -> tuple[DesignCell, ...]:
+    """The 12 design cells of one half-block, in canonical order."""
+    cells = []
+    for long_memorise, adaptive_first, level in product((False, True), (False, True), Level):
+        building = (long_memorise + adaptive_first + (level is Level.C2) + complemented) % 2
+        cells.append(DesignCell(long_memorise, adaptive_first, level, building))
+    return tuple(cells)
+
+
+def design_cell(seed: int, stream: str, slot: int) -> DesignCell:
+    """The design cell of `slot` (from 0) in the allocation sequence `stream` of a study.
+
+    `stream` keeps live, pilot and simulated sessions apart. Raises ValueError for a negative slot.
+    """
+    if slot < 0:
+        raise ValueError(f"slots count from 0, not {slot}")
+    block, place = divmod(slot, BLOCK)
+    half, place = divmod(place, HALF_BLOCK)
+    complement_first = _hash(seed, stream, block, "complement")[0] % 2 == 1
+    cells = half_block(complemented=complement_first != (half == 1))
+    shuffled = sorted(cells, key=lambda cell: _hash(seed, stream, block, half, cell.code))
+    return shuffled[place]
+
+
+def _hash(*parts: object) -> bytes:
+    return sha256("/".join(str(part) for part in parts).encode()).digest()

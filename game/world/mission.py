@@ -1,0 +1,269 @@
+"""The mission: one run in one building, and its rules. No clock, no I/O, no screen, no coach.
+
+Time is an argument. Everything that falls due fires at its own due time, in the order of `Order`
+at a tie; so extra steps without an action change nothing.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+from game.world.building import Building, Severity, VictimSite
+from game.world.events import (
+    Acted,
+    Action,
+    Expired,
+    MissionEnded,
+    MissionEvent,
+    Outcome,
+    Rescued,
+    TreatmentBroken,
+    TreatmentStarted,
+)
+from game.world.geometry import Heading
+from game.world.observation import (
+    Guidance,
+    Observation,
+    SeenRoom,
+    SeenVictim,
+    Treatment,
+    VictimState,
+)
+from game.world.settings import MissionSettings
+from game.world.sight import Sight
+
+COMPASS_ACTIONS = {
+    Action.NORTH: Heading.NORTH,
+    Action.EAST: Heading.EAST,
+    Action.SOUTH: Heading.SOUTH,
+    Action.WEST: Heading.WEST,
+}
+TURN_ACTIONS = frozenset({Action.FORWARD, Action.TURN_LEFT, Action.TURN_RIGHT})
+
+
+class Order(IntEnum):
+    """What fires first at a tie. EVALUATION is the coach's; the session puts it in its place."""
+
+    TREATMENT_END = 0
+    EXPIRY = 1
+    EVALUATION = 2
+    MISSION_END = 3
+
+
+class Due(NamedTuple):
+    at_ms: int
+    order: Order
+
+
+class Mission:
+    """The state of one mission, from 0 ms to `settings.duration_ms`."""
+
+    def __init__(self, building: Building, settings: MissionSettings) -> None:
+        self.building = building
+        self.settings = settings
+        self.time_ms = 0
+        self.position = building.start
+        self.heading = building.start_heading
+        self.ended = False
+        self.victims = {site.id: VictimState.WAITING for site in building.victims}
+        self._site_at = {site.cell: site for site in building.victims}
+        self._sight = Sight(building.plan, settings.sight_radius)
+        self._treated: VictimSite | None = None
+        self._treatment_start_ms = 0
+        self._explored = 0
+        self._last_seen: dict[str, VictimState] = {}
+        self._look()
+
+    @property
+    def rescued(self) -> int:
+        return sum(state is VictimState.RESCUED for state in self.victims.values())
+
+    @property
+    def score(self) -> int:
+        return sum(
+            self.settings.points(site.severity)
+            for site in self.building.victims
+            if self.victims[site.id] is VictimState.RESCUED
+        )
+
+    @property
+    def next_due(self) -> Due | None:
+        """What fires next by itself; None once the mission has ended."""
+        if self.ended:
+            return None
+        due = [Due(self.settings.duration_ms, Order.MISSION_END)]
+        if self._treated is not None:
+            due.append(Due(self._treatment_end_ms(), Order.TREATMENT_END))
+        if self._reds_waiting():
+            due.append(Due(self.settings.red_expiry_ms, Order.EXPIRY))
+        return min(due)
+
+    def pass_time(self, now_ms: int) -> None:
+        """Let the clock run on to `now_ms`, where nothing is due before. Raises ValueError when
+        time would run backwards."""
+        if now_ms < self.time_ms:
+            raise ValueError(f"time cannot run backwards from {self.time_ms} to {now_ms} ms")
+        self.time_ms = now_ms
+
+    def fire_next(self) -> list[MissionEvent]:
+        """Fire what is next due, at its due time. Raises ValueError once the mission has ended."""
+        due = self.next_due
+        if due is None:
+            raise ValueError("the mission has ended")
+        self.pass_time(due.at_ms)
+        match due.order:
+            case Order.TREATMENT_END:
+                return self._finish_treatment(due.at_ms)
+            case Order.EXPIRY:
+                return self._expire_reds(due.at_ms)
+            case _:
+                self.ended = True
+                return [MissionEnded(due.at_ms, rescued=self.rescued)]
+
+    def step(
+        self, action: Action | None, now_ms: int, pressed_ms: int | None = None
+    ) -> list[MissionEvent]:
+        """Fire everything due by `now_ms`, then carry out `action` if the mission still runs.
+
+        `pressed_ms` is when the key for it came, where that was earlier; it is only recorded.
+        Raises ValueError when time runs backwards or the action is not one of the controls in use.
+        """
+        events: list[MissionEvent] = []
+        while (due := self.next_due) is not None and due.at_ms <= now_ms:
+            events += self.fire_next()
+        if self.ended:
+            return events
+        self.pass_time(now_ms)
+        if action is not None:
+            outcome, followed = self._carry_out(action, now_ms)
+            pressed = now_ms if pressed_ms is None else pressed_ms
+            events.append(Acted(now_ms, pressed, action, outcome, self.position, self.heading))
+            events += followed
+        return events
+
+    def observation(self, guidance: Guidance | None = None) -> Observation:
+        """What the rescuer sees now, with `guidance` on the bar."""
+        building, settings = self.building, self.settings
+        index = building.plan.index
+        visible = self._sight.field(self.position)
+        in_view, remembered = [], []
+        for site in building.victims:
+            if visible >> index(site.cell) & 1:
+                in_view.append(SeenVictim(site.cell, site.severity, self.victims[site.id]))
+            elif site.id in self._last_seen:
+                state = self._last_seen[site.id]
+                remembered.append(SeenVictim(site.cell, site.severity, state))
+        rooms = tuple(
+            SeenRoom(room.name, room.label)
+            for room in building.rooms
+            if visible >> index(room.label) & 1
+        )
+        return Observation(
+            plan=building.plan,
+            visible=visible,
+            explored=self._explored,
+            victims=tuple(in_view),
+            remembered=tuple(remembered),
+            rooms=rooms,
+            position=self.position,
+            heading=self.heading,
+            time_ms=self.time_ms,
+            time_left_ms=max(0, settings.duration_ms - self.time_ms),
+            treatment=self._treatment(),
+            rescued=self.rescued,
+            score=self.score if settings.show_score else None,
+            ended=self.ended,
+            guidance=guidance,
+        )
+
+    def victim_in_reach(self) -> VictimSite | None:
+        """The waiting victim that triage would treat: own cell, then ahead, then clockwise."""
+        ahead = self.heading
+        around = (ahead, ahead.right, ahead.back, ahead.left)
+        for cell in (self.position, *(heading.from_cell(self.position) for heading in around)):
+            site = self._site_at.get(cell)
+            if site is not None and self.victims[site.id] is VictimState.WAITING:
+                return site
+        return None
+
+    def _carry_out(self, action: Action, now_ms: int) -> tuple[Outcome, list[MissionEvent]]:
+        if action is Action.TRIAGE:
+            return self._triage(now_ms)
+        turn_controls = self.settings.controls == "turn"
+        if (action in TURN_ACTIONS) is not turn_controls:
+            raise ValueError(f"{action} is not one of the {self.settings.controls} controls")
+        if action is Action.TURN_LEFT:
+            self.heading = self.heading.left
+            return Outcome.TURNED, []
+        if action is Action.TURN_RIGHT:
+            self.heading = self.heading.right
+            return Outcome.TURNED, []
+        self.heading = COMPASS_ACTIONS.get(action, self.heading)
+        return self._move(now_ms)
+
+    def _move(self, now_ms: int) -> tuple[Outcome, list[MissionEvent]]:
+        target = self.heading.from_cell(self.position)
+        if not self.building.plan.walkable(target):
+            return Outcome.BUMPED, []
+        self.position = target
+        self._look()
+        if self._treated is None:
+            return Outcome.MOVED, []
+        broken, self._treated = self._treated.id, None
+        return Outcome.MOVED, [TreatmentBroken(now_ms, broken)]
+
+    def _triage(self, now_ms: int) -> tuple[Outcome, list[MissionEvent]]:
+        site = self.victim_in_reach()
+        if self._treated is not None:
+            return Outcome.ALREADY_TREATING, []
+        if site is None:
+            return Outcome.NOBODY, []
+        if self._expires_before(site, now_ms + self.settings.treatment_ms(site.severity)):
+            return Outcome.TOO_LATE, []
+        self._treated, self._treatment_start_ms = site, now_ms
+        return Outcome.TREATING, [TreatmentStarted(now_ms, site.id, self._treatment_end_ms())]
+
+    def _expires_before(self, site: VictimSite, at_ms: int) -> bool:
+        return site.severity is Severity.RED and self.settings.red_expiry_ms < at_ms
+
+    def _treatment_end_ms(self) -> int:
+        assert self._treated is not None
+        return self._treatment_start_ms + self.settings.treatment_ms(self._treated.severity)
+
+    def _finish_treatment(self, at_ms: int) -> list[MissionEvent]:
+        assert self._treated is not None
+        victim, self._treated = self._treated.id, None
+        self.victims[victim] = VictimState.RESCUED
+        self._look()
+        return [Rescued(at_ms, victim)]
+
+    def _reds_waiting(self) -> list[str]:
+        return [
+            site.id
+            for site in self.building.victims
+            if site.severity is Severity.RED and self.victims[site.id] is VictimState.WAITING
+        ]
+
+    def _expire_reds(self, at_ms: int) -> list[MissionEvent]:
+        expired = self._reds_waiting()
+        for victim in expired:
+            self.victims[victim] = VictimState.EXPIRED
+        self._look()
+        return [Expired(at_ms, victim) for victim in expired]
+
+    def _treatment(self) -> Treatment | None:
+        site = self._treated
+        if site is None:
+            return None
+        total = self.settings.treatment_ms(site.severity)
+        return Treatment(site.cell, site.severity, self.time_ms - self._treatment_start_ms, total)
+
+    def _look(self) -> None:
+        """Remember what is in view now."""
+        visible = self._sight.field(self.position)
+        self._explored |= visible
+        index = self.building.plan.index
+        for site in self.building.victims:
+            if visible >> index(site.cell) & 1:
+                self._last_seen[site.id] = self.victims[site.id]

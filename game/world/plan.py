@@ -1,0 +1,84 @@
+"""The plan of a building: its walls, floor and doors, and nothing about who or what is inside.
+
+Sets of cells are held as integers with bit `y * width + x` set (a *mask*): union, intersection and
+counting over a whole floor are then single machine-level operations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+
+from game.world.geometry import Cell, Heading
+
+
+class Tile(IntEnum):
+    """What a cell is made of; the numbers are those of the CSV grids."""
+
+    FLOOR = 0
+    WALL = 1
+    DOOR = 2
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A grid of `height` rows of `width` tiles, row by row in `tiles`."""
+
+    width: int
+    height: int
+    tiles: bytes
+
+    def __post_init__(self) -> None:
+        if len(self.tiles) != self.width * self.height:
+            raise ValueError("a plan needs width x height tiles")
+
+    def __contains__(self, cell: Cell) -> bool:
+        return 0 <= cell[0] < self.width and 0 <= cell[1] < self.height
+
+    def tile(self, cell: Cell) -> Tile:
+        """The tile at `cell`; everything outside the plan is wall."""
+        return Tile(self.tiles[cell[1] * self.width + cell[0]]) if cell in self else Tile.WALL
+
+    def walkable(self, cell: Cell) -> bool:
+        return cell in self and self.tiles[cell[1] * self.width + cell[0]] != Tile.WALL
+
+    def is_door(self, cell: Cell) -> bool:
+        return cell in self and self.tiles[cell[1] * self.width + cell[0]] == Tile.DOOR
+
+    def index(self, cell: Cell) -> int:
+        return cell[1] * self.width + cell[0]
+
+    def cell(self, index: int) -> Cell:
+        y, x = divmod(index, self.width)
+        return x, y
+
+    def mask(self, cells: Iterable[Cell]) -> int:
+        """The mask with exactly `cells` set."""
+        mask = 0
+        for x, y in cells:
+            mask |= 1 << (y * self.width + x)
+        return mask
+
+    def cells(self, mask: int) -> Iterator[Cell]:
+        """The cells of `mask`, row by row."""
+        while mask:
+            lowest = mask & -mask
+            yield self.cell(lowest.bit_length() - 1)
+            mask ^= lowest
+
+    @cached_property
+    def walkable_mask(self) -> int:
+        return sum(1 << i for i, tile in enumerate(self.tiles) if tile != Tile.WALL)
+
+    @cached_property
+    def neighbours(self) -> tuple[tuple[int, ...], ...]:
+        """For every index the indices of its walkable four-neighbours (clockwise from north);
+        empty for a wall."""
+        table = []
+        for index, tile in enumerate(self.tiles):
+            cell = self.cell(index)
+            around = (heading.from_cell(cell) for heading in Heading) if tile != Tile.WALL else ()
+            table.append(tuple(self.index(c) for c in around if self.walkable(c)))
+        return tuple(table)
