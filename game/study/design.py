@@ -9,12 +9,12 @@ The order of slots comes from hashes of the seed: the same on every machine and 
 from __future__ import annotations
 
 from enum import StrEnum
-from hashlib import sha256
 from itertools import product
 
 import msgspec
 
 from game.coach.records import Level
+from game.study.chance import digest, shuffled
 
 HALF_BLOCK = 12
 BLOCK = 2 * HALF_BLOCK
@@ -77,11 +77,6 @@ def design_cell(seed: int, stream: str, slot: int) -> DesignCell:
         raise ValueError(f"slots count from 0, not {slot}")
     block, place = divmod(slot, BLOCK)
     half, place = divmod(place, HALF_BLOCK)
-    complement_first = _hash(seed, stream, block, "complement")[0] % 2 == 1
+    complement_first = digest(seed, stream, block, "complement")[0] % 2 == 1
     cells = half_block(complemented=complement_first != (half == 1))
-    shuffled = sorted(cells, key=lambda cell: _hash(seed, stream, block, half, cell.code))
-    return shuffled[place]
-
-
-def _hash(*parts: object) -> bytes:
-    return sha256("/".join(str(part) for part in parts).encode()).digest()
+    return shuffled(cells, lambda cell: cell.code, seed, stream, block, half)[place]

@@ -147,10 +147,32 @@ class Ledger:
     def end_session(self, participant: str, mode: Mode, ending: Ending) -> None:
         """Record how a session ended; the same ending twice is written once."""
         with self._locked() as write:
-            if _ending_of(self.entries(), participant, mode) != ending:
+            if ending_of(self.entries(), participant, mode) != ending:
                 write(
                     SessionEnded(utc=self._now(), participant=participant, mode=mode, ending=ending)
                 )
+
+    def agree(self, settings_hash: str) -> None:
+        """Make sure that the study runs under the settings with this hash.
+
+        Until the first live slot is taken they may change freely, which is recorded. Raises
+        LedgerError when they changed afterwards without an amendment.
+        """
+        with self._locked() as write:
+            entries = self.entries()
+            if agreed_hash(entries) == settings_hash:
+                return
+            if any(isinstance(entry, SlotTaken) and entry.mode == "live" for entry in entries):
+                raise LedgerError(
+                    "study.toml was changed after the first participant was allocated",
+                    place=str(self.path.parent),
+                    mend="Put it back, or record the change: ana study amend DIR --why TEXT",
+                )
+            write(
+                SettingsAmended(
+                    utc=self._now(), settings_hash=settings_hash, why="before the first participant"
+                )
+            )
 
     def amend(self, settings_hash: str, why: str) -> None:
         with self._locked() as write:
@@ -202,6 +224,16 @@ class Ledger:
             os.close(descriptor)
 
 
+def agreed_hash(entries: Sequence[LedgerEntry]) -> str:
+    """The hash of the settings that the study runs under; empty where there is no ledger yet."""
+    agreed = [
+        entry.settings_hash
+        for entry in entries
+        if isinstance(entry, StudyCreated | SettingsAmended)
+    ]
+    return agreed[-1] if agreed else ""
+
+
 def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> SlotTaken | None:
     """The slot a participant holds in a mode, if any."""
     for entry in entries:
@@ -210,7 +242,8 @@ def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Slo
     return None
 
 
-def _ending_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Ending | None:
+def ending_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Ending | None:
+    """How a participant's session ended last; None while it has not."""
     ending: Ending | None = None
     for entry in entries:
         if isinstance(entry, SessionEnded) and (entry.participant, entry.mode) == (
@@ -230,7 +263,7 @@ def _next_slot(entries: Sequence[LedgerEntry], mode: Mode, refill: bool) -> tupl
     }
     if refill:
         for slot, holder in sorted(holders.items()):
-            if _ending_of(entries, holder, mode) in ("dropped", "withdrawn"):
+            if ending_of(entries, holder, mode) in ("dropped", "withdrawn"):
                 return slot, True
     return len(holders), False
 

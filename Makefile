@@ -1,0 +1,77 @@
+# `make help` lists what there is. Choose an interpreter with PYTHON=python3.12.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+PROJECT := pyproject.toml game/__init__.py
+
+.DEFAULT_GOAL := help
+.PHONY: help play test slow lint types contract pins schema
+
+help:  ## list these targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+play: $(VENV)/play.stamp  ## set the game up (first time) and open it
+	@$(BIN)/ana
+
+test: $(VENV)/all.stamp  ## set everything up (first time) and run the tests
+	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal
+
+slow: $(VENV)/all.stamp  ## run the exhaustive tests
+	@$(BIN)/python -m pytest -m slow
+
+lint: $(VENV)/all.stamp  ## check style and format
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+
+types: $(VENV)/all.stamp  ## check the types
+	@$(BIN)/mypy
+
+contract: $(VENV)/all.stamp  ## check which room may import which
+	@$(BIN)/lint-imports
+
+schema: $(VENV)/all.stamp  ## write the schema of journals from the types
+	@$(BIN)/python -m game.session.schema
+
+COMPILE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 \
+  --generate-hashes --no-header --no-annotate --no-emit-index-url --no-emit-find-links \
+  --group build --quiet
+
+pins: $(VENV)/all.stamp  ## resolve the dependencies anew and pin them
+	$(COMPILE) --upgrade --all-extras --output-file requirements/all.txt
+	$(COMPILE) --upgrade --constraint requirements/all.txt --output-file requirements/play.txt
+
+# --- set-up -------------------------------------------------------------------------------------
+
+# $(call install,TIER,WORDS): install a tier's pins, then the project itself, saying every ten
+# seconds that it goes on; bytecode is made here, so that the first game opens fast.
+define install
+	@echo "Setting up $(2) ..."
+	@while sleep 10 3>&-; do echo "  ... still installing" >&3; done 3>&1 >/dev/null 2>&1 & \
+	beat=$$!; trap 'kill $$beat 2>/dev/null' EXIT; trap 'exit 130' INT TERM; \
+	$(PIP) install --require-hashes --requirement requirements/$(1).txt && \
+	$(PIP) install --quiet --no-deps --no-build-isolation --editable . && \
+	$(BIN)/python -m compileall -q game
+endef
+
+$(VENV)/play.stamp: requirements/play.txt $(PROJECT) | $(VENV)/pyvenv.cfg
+	$(call install,play,the game)
+	@touch $@
+
+$(VENV)/all.stamp: requirements/all.txt requirements/play.txt $(PROJECT) | $(VENV)/pyvenv.cfg
+	$(call install,all,the game and everything around it)
+	@touch $(VENV)/play.stamp $@
+
+$(VENV)/pyvenv.cfg:
+	@command -v $(PYTHON) >/dev/null || { \
+	  echo "ana needs Python 3.11 or newer, and there is no '$(PYTHON)' here." >&2; \
+	  echo "Install one, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3.12" >&2; exit 2; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "ana needs Python 3.11 or newer; '$(PYTHON)' is $$($(PYTHON) -V 2>&1)." >&2; \
+	  echo "Name a newer one: make $(MAKECMDGOALS) PYTHON=python3.12" >&2; exit 2; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	  echo "'$(PYTHON)' cannot make a virtual environment: venv or ensurepip is missing." >&2; \
+	  echo "On Debian and Ubuntu: sudo apt install python3-venv" >&2; exit 2; }
+	@echo "Making a virtual environment in $(VENV) ..."
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); exit 1; }

@@ -1,0 +1,133 @@
+"""`ana building`: look at a building, or check a file before a lab uses it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Iterator
+
+import click
+
+from game.world import load_building
+from game.world.building import Building, Room, Severity
+from game.world.drawing import BuildingError
+from game.world.fitness import shortcomings
+from game.world.labels import HALF_BLOCKS, SQUARES
+from game.world.picture import LEGEND, Ink, Row, joined, picture
+
+STATUS_UNSOUND = 2
+
+_PAPER = os.terminal_size((400, 200))
+"""What is drawn on where there is no terminal."""
+
+_COLOURS = {
+    Ink.WALL: "bright_black",
+    Ink.DOOR: "yellow",
+    Ink.RED: "bright_red",
+    Ink.BLUE: "bright_blue",
+    Ink.START: "bright_green",
+}
+_seed_option = click.option(
+    "--seed", default=0, show_default=True, help="Furnishes a CSV grid that has no legend."
+)
+
+
+@click.group(name="building")
+def group() -> None:
+    """Look at buildings and check them."""
+
+
+@group.command()
+@click.argument("building")
+@_seed_option
+def show(building: str, seed: int) -> None:
+    """Draw BUILDING (a name or a file) with its room names, doors, victims and start."""
+    loaded = load_building(building, seed)
+    coloured = _wants_colour()
+    for row in _panels(loaded):
+        click.echo("".join(_painted(row) if coloured else _plain(row)).rstrip())
+    click.echo("".join(_painted(LEGEND) if coloured else _plain(LEGEND)))
+    click.echo(f"\n{loaded.name}: {counts(loaded)}")
+    for room in sorted(loaded.rooms, key=lambda room: room.name):
+        click.echo(f"  {room.name:<24}{_contents(loaded, room)}")
+
+
+@group.command()
+@click.argument("file")
+@_seed_option
+def check(file: str, seed: int) -> int:
+    """Say whether the building FILE is sound, or all that is wrong with it and how to mend it."""
+    try:
+        building = load_building(file, seed)
+        problems = shortcomings(building, file, _top_line(file, building))
+    except BuildingError as error:
+        problems = error.problems
+    for problem in problems:
+        click.echo(f"{problem.place}: {problem.message}. {problem.mend}.")
+    if problems:
+        return STATUS_UNSOUND
+    click.echo(f"{file}: sound ({counts(building)})")
+    return 0
+
+
+def counts(building: Building) -> str:
+    """The size of a building and what is in it."""
+    reds = sum(victim.severity is Severity.RED for victim in building.victims)
+    return (
+        f"{building.plan.width} x {building.plan.height} cells, {len(building.rooms)} rooms, "
+        f"{len(building.doors)} doors, {len(building.victims)} victims ({reds} red)"
+    )
+
+
+def _contents(building: Building, room: Room) -> str:
+    """The doors and victims of a room, as `2 doors, 1 red, 1 blue`."""
+    found = [f"{len(room.doors)} {'door' if len(room.doors) == 1 else 'doors'}"]
+    for severity in Severity:
+        lying = sum(
+            victim.severity is severity and building.room_of(victim) is room
+            for victim in building.victims
+        )
+        if lying:
+            found.append(f"{lying} {severity}")
+    return ", ".join(found)
+
+
+def _top_line(file: str, building: Building) -> int:
+    """The line of the file on which the plan's first row stands."""
+    if file.lower().endswith(".csv"):
+        return 1
+    lines = [line.rstrip() for line in building.text.split("\n")]
+    return lines.index("plan:") + 2
+
+
+def _panels(building: Building) -> Iterator[Row]:
+    """The rows of the picture: in squares if the terminal has the space, else in half-blocks.
+
+    A picture wider than the terminal is cut into panels, each printed below the one to its left.
+    """
+    plan = building.plan
+    columns, lines = shutil.get_terminal_size() if sys.stdout.isatty() else _PAPER
+    fits = plan.width * SQUARES.columns <= columns and plan.height <= lines
+    rows = picture(building, SQUARES if fits else HALF_BLOCKS)
+    for left in range(0, len(rows[0]), columns):
+        for row in rows:
+            yield joined(row[left : left + columns])
+
+
+def _painted(row: Row) -> Iterator[str]:
+    for stroke in row:
+        yield click.style(
+            stroke.text,
+            fg=_COLOURS.get(stroke.ink),
+            bg=_COLOURS.get(stroke.paper),
+            bold=stroke.ink is Ink.NAME,
+        )
+
+
+def _plain(row: Row) -> Iterator[str]:
+    return (stroke.text for stroke in row)
+
+
+def _wants_colour() -> bool:
+    return sys.stdout.isatty() and not os.environ.get("NO_COLOR")

@@ -1,0 +1,91 @@
+"""The `ana` command: which room answers which subcommand, and how every run of it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import cast
+
+import click
+
+from game import __version__
+from game.errors import AnaError
+
+STATUS_BAD_INPUT = 2
+STATUS_INTERRUPTED = 130
+
+
+class LazyCommand(click.Command):
+    """A name and a summary, known at once; the command itself is imported when it is run.
+
+    `target` is `module:attribute`, where the attribute is a `click.Command` whose function returns
+    its exit status, None meaning 0.
+    """
+
+    def __init__(self, name: str, target: str, summary: str) -> None:
+        super().__init__(name, short_help=summary)
+        self.target = target
+
+    def load(self) -> click.Command:
+        """The command behind the name."""
+        module, _, attribute = self.target.partition(":")
+        return cast(click.Command, getattr(import_module(module), attribute))
+
+
+class LazyGroup(click.Group):
+    """A group that imports only the subcommand it is about to run, and lists them as given."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        name, command, rest = super().resolve_command(ctx, args)
+        return name, command.load() if isinstance(command, LazyCommand) else command, rest
+
+
+@click.group(
+    cls=LazyGroup,
+    commands=[
+        LazyCommand("building", "game.buildings_cli:group", "Check a building file, or show one."),
+        LazyCommand("doctor", "game.doctor:command", "Check that this terminal can play."),
+        LazyCommand("completion", "game.completion:command", "Print a shell's completion script."),
+    ],
+    invoke_without_command=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+@click.version_option(__version__, prog_name="ana", message="%(prog)s %(version)s")
+@click.pass_context
+def ana(ctx: click.Context) -> None:
+    """A guided rescue mission with an adaptive coach, and the study around it."""
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run `ana` with `args` (default: the process's own) and return the exit status.
+
+    What the user can mend is told in one form on the error stream, with status 2; an interrupt
+    gives 130; a reader that closes the pipe ends the process quietly with 1.
+    """
+    try:
+        status = cast("int | None", ana.main(args, prog_name="ana", standalone_mode=False))
+    except click.UsageError as error:
+        return _refuse(error.format_message(), hint=_help_hint(error.ctx))
+    except click.ClickException as error:
+        return _refuse(error.format_message())
+    except AnaError as error:
+        return _refuse(str(error))
+    except (click.Abort, KeyboardInterrupt):
+        return STATUS_INTERRUPTED
+    return status or 0
+
+
+def _refuse(problem: str, hint: str = "") -> int:
+    click.echo(f"ana: {problem}{hint}", err=True)
+    return STATUS_BAD_INPUT
+
+
+def _help_hint(ctx: click.Context | None) -> str:
+    return f"\nTry '{ctx.command_path} --help'." if ctx else ""

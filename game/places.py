@@ -1,0 +1,25 @@
+"""Where journals of free play are kept."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from platformdirs import user_data_path
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def checkout(package: Path = PACKAGE) -> Path | None:
+    """The folder of the checkout that `package` runs from, or None when it is installed."""
+    root = package.parent
+    return root if (root / "pyproject.toml").is_file() else None
+
+
+def sessions_folder(package: Path = PACKAGE) -> Path:
+    """The folder of journals: the checkout's `data/sessions`, else the user's own data folder.
+
+    It is not created here.
+    """
+    root = checkout(package)
+    data = user_data_path("ana", appauthor=False) if root is None else root / "data"
+    return data / "sessions"

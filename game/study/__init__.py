@@ -1,0 +1,1 @@
+"""The design cells, allocation, protocol phases, instruments and the ledger of participants."""

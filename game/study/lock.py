@@ -1,0 +1,100 @@
+"""One process a session: a lock that names its holder, and taking over from a dead link.
+
+The lock is the kernel's (`flock`): it dies with its process, so after a crash or a restart of the
+machine the file is there and nobody holds it.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import signal
+import time
+from contextlib import suppress
+from pathlib import Path
+
+from game.study.folder import StudyError
+
+LOCK = "lock"
+PATIENCE_S = 3.0
+"""How long the other process may take to end itself."""
+_POLL_S = 0.05
+
+
+class SessionBusy(StudyError):
+    """Another process has the session open. `pid` is its number, None where it cannot be told."""
+
+    def __init__(self, path: Path, pid: int | None, silent_ms: int) -> None:
+        super().__init__(
+            "this session is open in another window",
+            place=str(path.parent),
+            mend="Go on there, or end it there first",
+        )
+        self.pid = pid
+        self.silent_ms = silent_ms
+
+
+class SessionLock:
+    """Held from when it is made until `release`, or the end of the process."""
+
+    def __init__(self, home: Path) -> None:
+        """Lock the session in `home`. Raises SessionBusy, or StudyError where that cannot be."""
+        self.path = home / LOCK
+        try:
+            home.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o600)
+        except OSError as error:
+            raise StudyError(
+                f"the session cannot be opened ({error.strerror})", place=str(home)
+            ) from error
+        try:
+            fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            pid = _holder(self._descriptor)
+            os.close(self._descriptor)
+            raise SessionBusy(self.path, pid, _silent_ms(home)) from None
+        os.ftruncate(self._descriptor, 0)
+        os.pwrite(self._descriptor, f"{os.getpid()}\n".encode(), 0)
+
+    def release(self) -> None:
+        if self._descriptor >= 0:
+            os.close(self._descriptor)
+            self._descriptor = -1
+
+
+def take_over(home: Path) -> SessionLock:
+    """End the process that holds the session and lock it: takes some seconds at most.
+
+    Raises SessionBusy when the other process cannot be ended.
+    """
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            return SessionLock(home)
+        except SessionBusy as busy:
+            if busy.pid is None:
+                raise
+            with suppress(ProcessLookupError, PermissionError):
+                os.kill(busy.pid, number)
+        _wait_until_free(home)
+    return SessionLock(home)
+
+
+def _wait_until_free(home: Path) -> None:
+    until = time.monotonic() + PATIENCE_S
+    with (home / LOCK).open("rb") as file:
+        while time.monotonic() < until:
+            with suppress(BlockingIOError):
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return
+            time.sleep(_POLL_S)
+
+
+def _holder(descriptor: int) -> int | None:
+    text = os.pread(descriptor, 20, 0).strip()
+    return int(text) if text.isdigit() and int(text) > 1 else None
+
+
+def _silent_ms(home: Path) -> int:
+    """How long ago the session last wrote anything."""
+    written = max((path.stat().st_mtime for path in home.iterdir()), default=time.time())
+    return max(0, round((time.time() - written) * 1000))

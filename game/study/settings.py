@@ -1,0 +1,151 @@
+"""study.toml: every setting of a study, typed, and checked when it is read (design 7)."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import fields
+from difflib import get_close_matches
+from hashlib import sha256
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from game.coach.presets import PRESETS
+from game.errors import AnaError
+from game.world.settings import MissionSettings
+
+TimedPhase = Literal["memorise", "label", "mission"]
+Outcome = Literal["victims", "engagement", "confidence", "frustration", "confusion", "preference"]
+
+
+class SettingsError(AnaError):
+    """study.toml cannot be used as it stands."""
+
+
+def _within(name: str, value: int, low: int, high: int) -> None:
+    if not low <= value <= high:
+        raise ValueError(f"{name} must be between {low} and {high}, not {value}")
+
+
+class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    pass
+
+
+class ScreenSize(_Section, frozen=True):
+    """The fixed size, in terminal cells, of the game view and the memorise map."""
+
+    columns: int = 120
+    rows: int = 40
+
+    def __post_init__(self) -> None:
+        _within("screen.columns", self.columns, 80, 400)
+        _within("screen.rows", self.rows, 24, 200)
+
+
+class Interruption(_Section, frozen=True):
+    """What becomes of a timed phase that broke off: go on with the remaining time, end it there,
+    or void the whole round."""
+
+    memorise: Literal["continue", "void"] = "continue"
+    label: Literal["continue", "void"] = "continue"
+    mission: Literal["end", "void"] = "end"
+
+
+class Primary(_Section, frozen=True):
+    """The outcomes and the correction for multiple tests that were chosen before the data."""
+
+    outcomes: tuple[Outcome, ...] = ("engagement", "victims")
+    correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
+
+
+class StudySettings(_Section, frozen=True):
+    """All settings of a study. Raises ValueError, naming the setting, when one is out of range."""
+
+    name: str
+    seed: int
+    blocks: int
+    buildings: tuple[str, str]
+    practice_building: str
+    preset: str = "calibrated"
+    memorise_seconds: tuple[int, int] = (60, 180)
+    label_seconds: int = 240
+    refill_dropouts: bool = False
+    screen: ScreenSize = ScreenSize()
+    mission: MissionSettings = msgspec.field(
+        default_factory=lambda: MissionSettings(show_score=False, allow_pause=False)
+    )
+    interruption: Interruption = Interruption()
+    primary: Primary = Primary()
+
+    def __post_init__(self) -> None:
+        _within("blocks", self.blocks, 1, 1_000)
+        short, long = self.memorise_seconds
+        _within("memorise_seconds", short, 1, 3_600)
+        _within("memorise_seconds", long, short, 3_600)
+        _within("label_seconds", self.label_seconds, 1, 3_600)
+        if self.preset not in PRESETS:
+            raise ValueError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset}")
+        if self.buildings[0] == self.buildings[1]:
+            raise ValueError("buildings must be two different ones")
+        if self.mission.show_score:
+            raise ValueError("mission.show_score must be false in a study")
+        if self.mission.allow_pause:
+            raise ValueError("mission.allow_pause must be false in a study")
+
+    def memorise_ms(self, long: bool) -> int:
+        return self.memorise_seconds[long] * 1000
+
+
+def read_settings(path: Path) -> tuple[StudySettings, str]:
+    """The settings in `path` and the SHA-256 of the file. Raises SettingsError, naming the key."""
+    try:
+        data = path.read_bytes()
+        text = data.decode()
+        tree = tomllib.loads(text)
+    except OSError as error:
+        raise SettingsError(
+            f"the settings cannot be read ({error.strerror})",
+            place=str(path),
+            mend="`ana study new` makes a study folder with a study.toml",
+        ) from error
+    except UnicodeDecodeError as error:
+        raise SettingsError("the file is not UTF-8 text", place=str(path)) from error
+    except tomllib.TOMLDecodeError as error:
+        raise SettingsError(f"this is not TOML: {error}", place=str(path)) from error
+    try:
+        _no_unknown_rules(tree.get("mission"))
+        settings = msgspec.convert(tree, StudySettings)
+    except msgspec.ValidationError as error:
+        message, key = _told(str(error))
+        place = f"{path}, {key}" if key else str(path)
+        raise SettingsError(message, place=place, mend=_suggestion(message)) from error
+    return settings, sha256(data).hexdigest()
+
+
+def _no_unknown_rules(mission: object) -> None:
+    """Raise as msgspec would: it lets unknown fields of a dataclass pass."""
+    rules = {field.name for field in fields(MissionSettings)}
+    for name in mission if isinstance(mission, dict) else ():
+        if name not in rules:
+            raise msgspec.ValidationError(
+                f"Object contains unknown field `{name}` - at `$.mission`"
+            )
+
+
+def _told(error: str) -> tuple[str, str]:
+    """msgspec's message without its path, and the path as a person writes it."""
+    message, _, path = error.partition(" - at `")
+    return message, path.rstrip("`").removeprefix("$").lstrip(".")
+
+
+def _suggestion(message: str) -> str:
+    unknown = re.search(r"unknown field `(\w+)`", message)
+    if unknown is None:
+        return ""
+    sections = (StudySettings, ScreenSize, Interruption, Primary)
+    names = {field for section in sections for field in section.__struct_fields__}
+    names |= {field.name for field in fields(MissionSettings)}
+    close = get_close_matches(unknown[1], sorted(names), n=1)
+    return f"Did you mean {close[0]}?" if close else "Remove it"

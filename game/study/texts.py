@@ -1,0 +1,144 @@
+"""What participants read and are asked: data files of the study folder, typed and checked."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from game.errors import AnaError
+
+LIKERT_POINTS = 5
+
+
+class TextsError(AnaError):
+    """A file of texts or items cannot be used as it stands."""
+
+
+class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    pass
+
+
+class Page(_Part, frozen=True):
+    """A title and its text; paragraphs are separated by blank lines."""
+
+    title: str
+    body: str
+
+
+class Consent(Page, frozen=True):
+    agree: str
+    decline: str
+
+
+class InstructorNames(_Part, frozen=True):
+    """Neutral names for the instructors of the first and the second round."""
+
+    first: str
+    second: str
+
+
+class Texts(_Part, frozen=True):
+    """texts.toml."""
+
+    version: str
+    consent: Consent
+    declined: Page
+    practice: Page
+    memorise: Page
+    label: Page
+    mission: Page
+    mental_state: Page
+    likert: Page
+    preference: Page
+    reason: Page
+    debrief: Page
+    instructors: InstructorNames
+
+
+class Slider(_Part, frozen=True):
+    """A question answered from 1 (`low`) to 100 (`high`)."""
+
+    id: str
+    text: str
+    low: str
+    high: str
+
+
+class Statement(_Part, frozen=True):
+    id: str
+    text: str
+
+
+class Scale(_Part, frozen=True):
+    """The names of the five points, from the least agreement to the most."""
+
+    answers: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.answers) != LIKERT_POINTS:
+            raise ValueError(f"a scale has {LIKERT_POINTS} answers, not {len(self.answers)}")
+
+
+class Check(_Part, frozen=True):
+    """A question of the practice check; `right` counts from 1."""
+
+    id: str
+    text: str
+    answers: tuple[str, ...]
+    right: int
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.right <= len(self.answers):
+            raise ValueError(f"right must be between 1 and {len(self.answers)}, not {self.right}")
+
+
+class Items(_Part, frozen=True):
+    """items.toml."""
+
+    version: str
+    slider: tuple[Slider, ...]
+    statement: tuple[Statement, ...]
+    scale: Scale
+    check: tuple[Check, ...]
+
+    def __post_init__(self) -> None:
+        asked: tuple[Slider | Statement | Check, ...] = (
+            *self.slider,
+            *self.statement,
+            *self.check,
+        )
+        ids = [item.id for item in asked]
+        for identifier in ids:
+            if ids.count(identifier) > 1:
+                raise ValueError(f"two items have the id {identifier}")
+
+
+_Read = TypeVar("_Read", Texts, Items)
+
+
+def read_texts(path: Path) -> Texts:
+    """Raises TextsError, naming the file and the key."""
+    return _read(path, Texts)
+
+
+def read_items(path: Path) -> Items:
+    """Raises TextsError, naming the file and the key."""
+    return _read(path, Items)
+
+
+def _read(path: Path, kind: type[_Read]) -> _Read:
+    try:
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
+    except OSError as error:
+        raise TextsError(
+            f"the file cannot be read ({error.strerror})",
+            place=str(path),
+            mend="Copy it from a new study folder",
+        ) from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        raise TextsError(
+            str(error), place=str(path), mend="Compare it with the file of a new study folder"
+        ) from error

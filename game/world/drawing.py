@@ -1,0 +1,255 @@
+"""From what a file draws to a building: every rule a building must keep, and the way to mend it.
+
+A `Drawing` is what a text file or a CSV with its legend says, not yet checked. `survey` lists all
+that is wrong with it; `build` derives rooms, doors and victims from a sound one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from game.errors import AnaError
+from game.world.building import Building, Door, Room, Severity, VictimSite
+from game.world.geometry import Cell, Heading
+from game.world.plan import Plan
+from game.world.regions import Region, doors_of, doorways, floor_regions, label_cell, reachable
+
+_NAME_MARKS = " -'&/"
+_OPEN_A_WAY = "Open a way to it with floor or a door"
+
+
+@dataclass(frozen=True, order=True)
+class Problem:
+    """Something wrong at a line and column (both from 1) of a file, and how to mend it."""
+
+    source: str
+    line: int
+    column: int
+    message: str
+    mend: str
+
+    @property
+    def place(self) -> str:
+        return f"{self.source}, line {self.line}, column {self.column}"
+
+
+class BuildingError(AnaError):
+    """A building that cannot be used.
+
+    `problems` holds all that was found, in file order; the error itself tells the first.
+    """
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        first, more = problems[0], len(problems) - 1
+        message = first.message
+        if more:
+            message += f" (and {more} more {'problem' if more == 1 else 'problems'})"
+        super().__init__(message, place=first.place, mend=first.mend)
+        self.problems = problems
+
+
+@dataclass(frozen=True)
+class RoomMark:
+    """A room's name, the cells that bear it, and the line of the file that says so."""
+
+    name: str
+    cells: tuple[Cell, ...]
+    line: int
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A building as drawn.
+
+    Row y of the plan stands on line `top_line` + y of the file `source`; `legend_source` and
+    `legend_line` are where whatever is missing from the legend belongs.
+    """
+
+    source: str
+    legend_source: str
+    name: str
+    plan: Plan
+    rooms: tuple[RoomMark, ...]
+    victims: tuple[tuple[Cell, Severity], ...]
+    starts: tuple[tuple[Cell, Heading], ...]
+    top_line: int
+    legend_line: int
+
+    @cached_property
+    def doors(self) -> tuple[Door, ...]:
+        return doorways(self.plan)
+
+    @cached_property
+    def region_of(self) -> dict[Cell, Region]:
+        """The enclosed space that each floor cell belongs to."""
+        return {cell: region for region in floor_regions(self.plan) for cell in region}
+
+    def problem(self, cell: Cell, message: str, mend: str) -> Problem:
+        return Problem(self.source, self.top_line + cell[1], cell[0] + 1, message, mend)
+
+    def legend_problem(self, line: int, message: str, mend: str) -> Problem:
+        return Problem(self.legend_source, line, 1, message, mend)
+
+
+def build(drawing: Drawing, text: str) -> Building:
+    """The building that a sound drawing (one in which `survey` finds nothing) describes."""
+    doors = drawing.doors
+    rooms = []
+    for mark in drawing.rooms:
+        cells = drawing.region_of[mark.cells[0]]
+        rooms.append(Room(mark.name, cells, label_cell(cells), doors_of(cells, doors)))
+    rooms.sort(key=lambda room: (room.cells[0][1], room.cells[0][0]))
+    lying = sorted(drawing.victims, key=lambda victim: (victim[0][1], victim[0][0]))
+    victims = tuple(
+        VictimSite(f"v{number:02}", cell, severity)
+        for number, (cell, severity) in enumerate(lying, start=1)
+    )
+    start, heading = drawing.starts[0]
+    return Building(drawing.name, drawing.plan, tuple(rooms), doors, victims, start, heading, text)
+
+
+def survey(drawing: Drawing) -> tuple[Problem, ...]:
+    """Everything that keeps a drawing from being a building, in file order."""
+    return tuple(
+        sorted(
+            (
+                *_outer_wall(drawing),
+                *_start(drawing),
+                *_crowds(drawing),
+                *_names(drawing),
+                *_spaces(drawing),
+            )
+        )
+    )
+
+
+def _outer_wall(drawing: Drawing) -> Iterator[Problem]:
+    plan = drawing.plan
+    right, bottom = plan.width - 1, plan.height - 1
+    sides = {
+        "north": [(x, 0) for x in range(plan.width)],
+        "south": [(x, bottom) for x in range(plan.width)],
+        "west": [(0, y) for y in range(1, bottom)],
+        "east": [(right, y) for y in range(1, bottom)],
+    }
+    for side, cells in sides.items():
+        gaps = [cell for cell in cells if plan.walkable(cell)]
+        if gaps:
+            count = "" if len(gaps) == 1 else f" in {len(gaps)} cells, first here"
+            yield drawing.problem(
+                gaps[0],
+                f"the {side} outer wall is open{count}",
+                "Close the outline of the plan with wall",
+            )
+
+
+def _start(drawing: Drawing) -> Iterator[Problem]:
+    if not drawing.starts:
+        yield drawing.legend_problem(
+            drawing.legend_line,
+            "the building has no start",
+            "Place exactly one start, with the way it faces",
+        )
+    for cell, _ in drawing.starts[1:]:
+        yield drawing.problem(
+            cell, "the building has more than one start", "Keep exactly one start"
+        )
+
+
+def _crowds(drawing: Drawing) -> Iterator[Problem]:
+    """One thing a cell: a text file can draw no more, and a room's glyph needs a cell too."""
+    taken = {cell for cell, _ in drawing.starts}
+    for cell, severity in drawing.victims:
+        if cell in taken:
+            yield drawing.problem(
+                cell, f"the {severity} victim lies where something else is", "Place it beside that"
+            )
+        taken.add(cell)
+    for mark in drawing.rooms:
+        if taken.issuperset(drawing.region_of[mark.cells[0]]):
+            yield drawing.problem(
+                mark.cells[0],
+                f"'{mark.name}' has no cell to spare",
+                "Leave one of its cells to neither a victim nor the start",
+            )
+
+
+def _names(drawing: Drawing) -> Iterator[Problem]:
+    first_line: dict[str, int] = {}
+    for mark in drawing.rooms:
+        known = first_line.setdefault(mark.name.casefold(), mark.line)
+        if known != mark.line:
+            yield drawing.legend_problem(
+                mark.line,
+                f"the room name '{mark.name}' is already used on line {known}",
+                "Give every room a name of its own; capitals make no difference",
+            )
+        if not sound_name(mark.name):
+            yield drawing.legend_problem(
+                mark.line,
+                f"'{mark.name}' is no room name",
+                "Begin with a letter or digit; use letters, digits, single spaces and - ' & /",
+            )
+
+
+def sound_name(name: str) -> bool:
+    """Whether a name can stand in a sentence of the coach without breaking it."""
+    return (
+        name[:1].isalnum()
+        and name == " ".join(name.split())
+        and all(letter.isalnum() or letter in _NAME_MARKS for letter in name)
+    )
+
+
+def _spaces(drawing: Drawing) -> Iterator[Problem]:
+    """One name a space and one space a name, all within reach, with a door; no victim elsewhere."""
+    region_of = drawing.region_of
+    reached = _reached(drawing)
+    named: dict[Cell, str] = {}
+    for mark in drawing.rooms:
+        home = region_of[mark.cells[0]]
+        stray = next((cell for cell in mark.cells if region_of[cell] is not home), None)
+        if stray is not None:
+            yield drawing.problem(
+                stray,
+                f"'{mark.name}' stands in two enclosed spaces",
+                "Keep a room's glyphs within its walls, or remove the wall that parts them",
+            )
+        other = named.setdefault(home[0], mark.name)
+        if other != mark.name:
+            yield drawing.problem(
+                mark.cells[0],
+                f"'{mark.name}' and '{other}' stand in one enclosed space",
+                "Part them by wall and door, or keep one of the names",
+            )
+        elif not doors_of(home, drawing.doors):
+            yield drawing.problem(
+                mark.cells[0], f"'{mark.name}' has no door", "Draw a door in its wall"
+            )
+        elif home[0] not in reached:
+            yield drawing.problem(
+                mark.cells[0], f"'{mark.name}' cannot be reached from the start", _OPEN_A_WAY
+            )
+    for cell, severity in drawing.victims:
+        if region_of[cell][0] in named:
+            continue
+        if cell in reached:
+            yield drawing.problem(
+                cell,
+                f"the {severity} victim lies in no named room",
+                "Move the victim into a room, or name the space it lies in as a room",
+            )
+        else:
+            yield drawing.problem(
+                cell, f"the {severity} victim cannot be reached from the start", _OPEN_A_WAY
+            )
+
+
+def _reached(drawing: Drawing) -> frozenset[Cell]:
+    """The cells that can be walked to from any start; every cell if there is none to start at."""
+    if not drawing.starts:
+        plan = drawing.plan
+        return frozenset(plan.cells(plan.walkable_mask))
+    return frozenset().union(*(reachable(drawing.plan, cell) for cell, _ in drawing.starts))

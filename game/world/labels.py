@@ -1,0 +1,103 @@
+"""Where a room's name stands on a drawn map: inside its room, on free floor, wrapped over rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from game.world.building import Room
+from game.world.geometry import Cell
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How many terminal columns a cell takes, and how many cells, one above the other, a row."""
+
+    columns: int
+    cells: int
+
+
+HALF_BLOCKS = Scale(columns=1, cells=2)
+"""The memorise map: a cell is one column wide and half a row high."""
+SQUARES = Scale(columns=2, cells=1)
+
+
+@dataclass(frozen=True)
+class LabelLine:
+    """A piece of a name, from terminal column `column` of map row `row` (both from 0)."""
+
+    column: int
+    row: int
+    text: str
+
+
+def fit_label(room: Room, scale: Scale = HALF_BLOCKS) -> tuple[LabelLine, ...]:
+    """The lines of a room's name on the map; none if it does not fit."""
+    return label_lines(room.name, room.cells, scale)
+
+
+def label_lines(
+    name: str, cells: Sequence[Cell], scale: Scale = HALF_BLOCKS
+) -> tuple[LabelLine, ...]:
+    """The lines of `name` over `cells`, no wall covered; none if it does not fit.
+
+    As few lines as possible, broken between words, centred one below the other and as near as
+    possible to the centroid. Offsets are integers: half columns times the number of cells.
+    """
+    rows = _free_columns(cells, scale)
+    count = len(cells)
+    centre = scale.columns * (2 * sum(x for x, _ in cells) + count)
+    middle = 2 * sum(y for _, y in cells) + count
+    for texts in _wrappings(name.split()):
+
+        def offset(axis: int, top: int, lines: int = len(texts)) -> int:
+            off_middle = abs((2 * top + lines) * scale.cells * count - middle)
+            return abs(axis * count - centre) + scale.columns * off_middle
+
+        places = [(axis, top) for top in rows for axis in _axes(texts, top, rows)]
+        if places:
+            axis, top = min(places, key=lambda place: (offset(*place), place))
+            return tuple(
+                LabelLine((axis - len(text)) // 2, row, text)
+                for row, text in enumerate(texts, start=top)
+            )
+    return ()
+
+
+def _free_columns(cells: Sequence[Cell], scale: Scale) -> dict[int, frozenset[int]]:
+    """For every map row, the terminal columns in which nothing but `cells` is drawn."""
+    free = frozenset(cells)
+    rows: dict[int, set[int]] = {}
+    for x, y in free:
+        row = y // scale.cells
+        drawn = ((x, row * scale.cells + below) for below in range(scale.cells))
+        if all(cell in free for cell in drawn):
+            left = x * scale.columns
+            rows.setdefault(row, set()).update(range(left, left + scale.columns))
+    return {row: frozenset(columns) for row, columns in rows.items()}
+
+
+def _wrappings(words: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Every way to break the words into lines: fewest lines first, then shortest longest line."""
+    for breaks in range(len(words)):
+        ways = []
+        for cut in combinations(range(1, len(words)), breaks):
+            bounds = zip((0, *cut), (*cut, len(words)), strict=True)
+            ways.append(tuple(" ".join(words[start:end]) for start, end in bounds))
+        yield from sorted(ways, key=lambda lines: (max(map(len, lines)), lines))
+
+
+def _axes(texts: Sequence[str], top: int, rows: dict[int, frozenset[int]]) -> list[int]:
+    """The axes, in half columns, about which the texts can stand centred from row `top` down."""
+    free = [rows.get(row, frozenset[int]()) for row in range(top, top + len(texts))]
+    if not all(free):
+        return []
+    return [
+        axis
+        for axis in range(2 * min(map(min, free)), 2 * max(map(max, free)) + 3)
+        if all(
+            columns.issuperset(range(left := (axis - len(text)) // 2, left + len(text)))
+            for columns, text in zip(free, texts, strict=True)
+        )
+    ]

@@ -1,0 +1,77 @@
+"""What a plan encloses: its doorways, and the floor regions that walls and doors close off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from game.world.building import Door
+from game.world.geometry import Cell, Heading
+from game.world.plan import Plan, Tile
+
+Region = tuple[Cell, ...]
+"""Connected cells, row by row."""
+
+
+def floor_regions(plan: Plan) -> tuple[Region, ...]:
+    """The connected floor regions, doors excluded, in row order of their first cells."""
+    return tuple(_connected(plan, _mask_of(plan, Tile.FLOOR)))
+
+
+def doorways(plan: Plan) -> tuple[Door, ...]:
+    """Every group of side-by-side door cells, in row order of their first cells."""
+    return tuple(Door(cells) for cells in _connected(plan, _mask_of(plan, Tile.DOOR)))
+
+
+def reachable(plan: Plan, start: Cell) -> frozenset[Cell]:
+    """Every cell that can be walked to from `start`, which must be walkable."""
+    return frozenset(plan.cells(_spread(plan, plan.mask([start]), plan.walkable_mask)))
+
+
+def doors_of(region: Iterable[Cell], doors: tuple[Door, ...]) -> tuple[int, ...]:
+    """The indices of the doors that open onto `region`."""
+    cells = frozenset(region)
+    return tuple(
+        number
+        for number, door in enumerate(doors)
+        if any(heading.from_cell(cell) in cells for cell in door.cells for heading in Heading)
+    )
+
+
+def label_cell(region: Region) -> Cell:
+    """The cell of `region` nearest its centroid; of several, the first row by row.
+
+    Distances are compared as integers (scaled by the number of cells), so nothing is rounded.
+    """
+    count = len(region)
+    sum_x, sum_y = sum(x for x, _ in region), sum(y for _, y in region)
+
+    def squared_distance(cell: Cell) -> int:
+        return (cell[0] * count - sum_x) ** 2 + (cell[1] * count - sum_y) ** 2
+
+    return min(region, key=squared_distance)
+
+
+def _mask_of(plan: Plan, tile: Tile) -> int:
+    """The mask of the cells made of `tile`."""
+    digits = bytes(b"01"[value == tile] for value in range(256))
+    return int(plan.tiles[::-1].translate(digits), 2)
+
+
+def _connected(plan: Plan, mask: int) -> Iterator[Region]:
+    while mask:
+        region = _spread(plan, mask & -mask, mask)
+        yield tuple(plan.cells(region))
+        mask ^= region
+
+
+def _spread(plan: Plan, seed: int, mask: int) -> int:
+    """The cells of `mask` that are connected to `seed` within it."""
+    west_side = plan.mask((0, y) for y in range(plan.height))
+    east_side = west_side << plan.width - 1
+    found = frontier = seed
+    while frontier:
+        near = frontier << plan.width | frontier >> plan.width
+        near |= (frontier & ~east_side) << 1 | (frontier & ~west_side) >> 1
+        frontier = near & mask & ~found
+        found |= frontier
+    return found

@@ -1,0 +1,87 @@
+"""study.toml and the files of texts: typed, and errors that name the key."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from game.study.settings import SettingsError, read_settings
+from game.study.texts import TextsError, read_items, read_texts
+
+TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
+NAMES = {"seed": 1, "blocks": 5, "first": "one", "second": "two", "practice": "three"}
+
+
+@pytest.fixture
+def study_toml(tmp_path: Path) -> Path:
+    path = tmp_path / "study.toml"
+    path.write_text((TEMPLATE / "study.toml").read_text().format(**NAMES))
+    return path
+
+
+def test_the_template_is_sound_and_hides_score_and_pause(study_toml: Path) -> None:
+    settings, digest = read_settings(study_toml)
+    assert settings.buildings == ("one", "two")
+    assert not settings.mission.show_score
+    assert not settings.mission.allow_pause
+    assert settings.memorise_ms(long=True) == 180_000
+    assert len(digest) == 64
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "told"),
+    [
+        ("blocks = 5", "block = 5", "Did you mean blocks?"),
+        ("columns = 120", "colums = 120", "study.toml, screen: .*Did you mean columns?"),
+        ("columns = 120", "columns = 20", "screen.columns must be between 80 and 400, not 20"),
+        ("duration_ms = 240000", "duration_ms = 5", "study.toml, mission: duration_ms must be"),
+        ("duration_ms = 240000", "duration = 5", "Did you mean duration_ms?"),
+        ('controls = "compass"', 'controls = "mouse"', "study.toml, mission.controls: .*'mouse'"),
+        ("show_score = false", "", "show_score must be false"),
+        ('"one", "two"', '"one", "one"', "two different"),
+        ("[60, 180]", "[180, 60]", "memorise_seconds"),
+        ("seed = 1", "seed = ", "not TOML"),
+    ],
+)
+def test_a_bad_setting_is_named_with_its_mend(
+    study_toml: Path, was: str, becomes: str, told: str
+) -> None:
+    study_toml.write_text(study_toml.read_text().replace(was, becomes))
+    with pytest.raises(SettingsError, match=told):
+        read_settings(study_toml)
+
+
+def test_a_missing_file_says_how_to_make_one(tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match="ana study new"):
+        read_settings(tmp_path / "study.toml")
+
+
+def test_the_texts_are_sound_and_ask_what_the_paper_asked() -> None:
+    texts, items = read_texts(TEMPLATE / "texts.toml"), read_items(TEMPLATE / "items.toml")
+    assert "18" in texts.consent.agree
+    assert [slider.id for slider in items.slider] == [
+        "engagement",
+        "confidence",
+        "frustration",
+        "confusion",
+    ]
+    assert [statement.id for statement in items.statement] == ["pref1", "pref2", "pref3", "pref4"]
+    shown = (TEMPLATE / "texts.toml").read_text().split("[debrief]")[0].casefold()
+    assert not any(word in shown for word in ("static", "adaptive", "level"))
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "told"),
+    [
+        ('id = "pref2"', 'id = "pref1"', "two items have the id pref1"),
+        ("right = 3", "right = 4", "right must be between 1 and 3"),
+        ('"neither", ', "", "5 answers, not 4"),
+        ("[scale]", "[scales]", "scales"),
+    ],
+)
+def test_bad_items_are_named(tmp_path: Path, was: str, becomes: str, told: str) -> None:
+    path = tmp_path / "items.toml"
+    path.write_text((TEMPLATE / "items.toml").read_text().replace(was, becomes))
+    with pytest.raises(TextsError, match=told):
+        read_items(path)

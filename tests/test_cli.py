@@ -1,0 +1,187 @@
+"""The `ana` command as a user meets it: what it prints, where, and with which exit status."""
+
+import os
+import pty
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+import click
+import pytest
+
+from game import __version__
+from game.cli import ana, main
+from game.errors import AnaError
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def command_that(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], int | None]], None]:
+    """Adds a command `probe` that runs the given function."""
+
+    def add(run: Callable[[], int | None]) -> None:
+        probe = click.Command("probe", callback=run)
+        monkeypatch.setitem(ana.commands, "probe", probe)
+
+    return add
+
+
+def raising(error: BaseException) -> Callable[[], int | None]:
+    def run() -> int | None:
+        raise error
+
+    return run
+
+
+def test_version(capsys: Capture) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"ana {__version__}\n"
+
+
+def test_python_m_game_is_ana() -> None:
+    run = subprocess.run([sys.executable, "-m", "game", "--version"], capture_output=True)
+    assert (run.returncode, run.stdout.decode()) == (0, f"ana {__version__}\n")
+
+
+def test_help_lists_every_command_in_the_order_of_the_table(capsys: Capture) -> None:
+    assert main(["--help"]) == 0
+    listed = capsys.readouterr().out.partition("Commands:\n")[2]
+    assert [line.split()[0] for line in listed.splitlines()] == list(ana.commands)
+
+
+@pytest.mark.parametrize(
+    ("args", "suggestion"),
+    [
+        (["docter"], "No such command 'docter'. Did you mean 'doctor'?"),
+        (["--versoin"], "No such option '--versoin'. Did you mean '--version'?"),
+        (["doctor", "--jsn"], "No such option '--jsn'. Did you mean '--json'?"),
+    ],
+)
+def test_a_slip_is_met_by_the_nearest_right_word(
+    args: list[str], suggestion: str, capsys: Capture
+) -> None:
+    assert main(args) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(f"ana: {suggestion}\nTry 'ana")
+
+
+def test_a_users_error_is_told_on_the_error_stream(
+    command_that: Callable[[Callable[[], int | None]], None], capsys: Capture
+) -> None:
+    command_that(raising(AnaError("row 3 is short", place="a.txt, line 5", mend="Add 2 cells.")))
+    assert main(["probe"]) == 2
+    assert capsys.readouterr() == ("", "ana: a.txt, line 5: row 3 is short. Add 2 cells.\n")
+
+
+def test_a_defect_is_not_dressed_up_as_a_users_error(
+    command_that: Callable[[Callable[[], int | None]], None],
+) -> None:
+    command_that(raising(ZeroDivisionError()))
+    with pytest.raises(ZeroDivisionError):
+        main(["probe"])
+
+
+@pytest.mark.parametrize(("returned", "status"), [(None, 0), (0, 0), (1, 1)])
+def test_a_commands_return_value_is_the_exit_status(
+    returned: int | None,
+    status: int,
+    command_that: Callable[[Callable[[], int | None]], None],
+) -> None:
+    command_that(lambda: returned)
+    assert main(["probe"]) == status
+
+
+def test_an_interrupt_gives_130(
+    command_that: Callable[[Callable[[], int | None]], None],
+) -> None:
+    command_that(raising(KeyboardInterrupt()))
+    assert main(["probe"]) == 130
+
+
+def test_a_closed_pipe_is_quiet() -> None:
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    run = subprocess.run(
+        [sys.executable, "-m", "game", "--help"], stdout=write_end, stderr=subprocess.PIPE
+    )
+    os.close(write_end)
+    assert (run.returncode, run.stderr) == (1, b"")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_script(shell: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SHELL", f"/bin/{shell}")
+    assert main(["completion", shell]) == 0
+    named = capsys.readouterr().out
+    assert main(["completion"]) == 0
+    assert capsys.readouterr().out == named
+    assert f"_ANA_COMPLETE={shell}_complete" in named
+
+
+def test_completion_of_an_unknown_shell(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SHELL", "/bin/tcsh")
+    assert main(["completion"]) == 2
+    assert "'tcsh'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"), [("ana doc", ["doctor"]), ("ana doctor --j", ["--json"])]
+)
+def test_the_shell_gets_its_completions(words: str, expected: list[str]) -> None:
+    env = os.environ | {
+        "_ANA_COMPLETE": "bash_complete",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(len(words.split()) - 1),
+    }
+    run = subprocess.run([sys.executable, "-m", "game"], env=env, capture_output=True, text=True)
+    assert [line.partition(",")[2] for line in run.stdout.splitlines()] == expected
+
+
+def in_a_terminal(args: list[str], keys: list[bytes], env: dict[str, str]) -> tuple[int, str]:
+    """Run `ana` in a pseudo-terminal, typing `keys` once it has asked for one."""
+    controller, terminal = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "game", *args],
+        stdin=terminal,
+        stdout=terminal,
+        stderr=terminal,
+        env=os.environ | env,
+    )
+    os.close(terminal)
+    shown = b""
+
+    def type_keys() -> None:
+        for key in keys:
+            os.write(controller, key)
+            time.sleep(0.1)
+
+    typist = threading.Thread(target=type_keys)
+    try:
+        while chunk := os.read(controller, 4096):
+            shown += chunk
+            if b"arrow key ..." in shown and not typist.ident:
+                typist.start()
+    except OSError:
+        pass
+    if typist.ident:
+        typist.join()
+    os.close(controller)
+    return process.wait(10), shown.decode()
+
+
+def test_doctor_reads_an_arrow_key_in_a_terminal() -> None:
+    env = {"TERM": "xterm-256color"}
+    _, shown = in_a_terminal(["doctor"], [b"\x1b[A"], env)
+    assert "up arrow, whole within" in shown
+
+
+def test_doctor_notices_an_arrow_key_in_pieces() -> None:
+    env = {"TERM": "xterm-256color", "ESCDELAY": "20"}
+    status, shown = in_a_terminal(["doctor"], [b"\x1b", b"[B"], env)
+    assert status == 1
+    assert "the down arrow came in pieces" in shown
+    assert "set ESCDELAY=" in shown

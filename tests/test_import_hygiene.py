@@ -1,0 +1,45 @@
+"""Nothing heavy is imported on the way to the game, and the house lists only what it can open."""
+
+import json
+import subprocess
+import sys
+
+import click
+import pytest
+
+from game.cli import LazyCommand, ana
+
+HEAVY = ("matplotlib", "numpy", "pandas", "pingouin", "scipy", "statsmodels", "tcod")
+ON_THE_WAY_TO_PLAY = ("game.cli", "game.places", "game.errors")
+LAZY = [command for command in ana.commands.values() if isinstance(command, LazyCommand)]
+
+
+def modules_after(*imports: str) -> set[str]:
+    program = f"import json, sys, {', '.join(imports)}; print(json.dumps(list(sys.modules)))"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    return set(json.loads(run.stdout))
+
+
+def test_the_way_to_play_imports_nothing_heavy() -> None:
+    loaded = modules_after(*ON_THE_WAY_TO_PLAY)
+    assert set(ON_THE_WAY_TO_PLAY) <= loaded
+    assert not loaded.intersection(HEAVY)
+
+
+def test_the_frame_imports_no_room() -> None:
+    assert {name for name in modules_after("game.cli") if name.startswith("game.")} == {
+        "game.cli",
+        "game.errors",
+    }
+
+
+def test_every_heavy_name_would_be_noticed() -> None:
+    assert "numpy" in modules_after("game.cli", "numpy")
+
+
+@pytest.mark.parametrize("stub", LAZY, ids=lambda stub: str(stub.name))
+def test_every_listed_command_can_be_loaded(stub: LazyCommand) -> None:
+    command = stub.load()
+    assert isinstance(command, click.Command)
+    assert command.name == stub.name
+    assert command.help
