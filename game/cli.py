@@ -48,6 +48,12 @@ class LazyGroup(click.Group):
 @click.group(
     cls=LazyGroup,
     commands=[
+        LazyCommand("play", "game.play_cli:play", "Play a mission now."),
+        LazyCommand("watch", "game.play_cli:watch", "Watch a simulated rescuer play."),
+        LazyCommand(
+            "replay", "game.play_cli:replay_journal", "Replay a mission with the coach's thoughts."
+        ),
+        LazyCommand("verify", "game.verify_cli:command", "Prove that journals replay to the same."),
         LazyCommand("building", "game.buildings_cli:group", "Check a building file, or show one."),
         LazyCommand("doctor", "game.doctor:command", "Check that this terminal can play."),
         LazyCommand("completion", "game.completion:command", "Print a shell's completion script."),
@@ -57,10 +63,13 @@ class LazyGroup(click.Group):
 )
 @click.version_option(__version__, prog_name="ana", message="%(prog)s %(version)s")
 @click.pass_context
-def ana(ctx: click.Context) -> None:
+def ana(ctx: click.Context) -> int | None:
     """A guided rescue mission with an adaptive coach, and the study around it."""
-    if ctx.invoked_subcommand is None:
-        click.echo(ctx.get_help())
+    if ctx.invoked_subcommand is not None:
+        return None
+    from game.screens.app import run_home
+
+    return run_home()
 
 
 def main(args: Sequence[str] | None = None) -> int:

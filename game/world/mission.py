@@ -31,7 +31,7 @@ from game.world.observation import (
     VictimState,
 )
 from game.world.settings import MissionSettings
-from game.world.sight import Sight
+from game.world.sight import sight_in
 
 COMPASS_ACTIONS = {
     Action.NORTH: Heading.NORTH,
@@ -68,7 +68,7 @@ class Mission:
         self.ended = False
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
         self._site_at = {site.cell: site for site in building.victims}
-        self._sight = Sight(building.plan, settings.sight_radius)
+        self._sight = sight_in(building.plan, settings.sight_radius)
         self._treated: VictimSite | None = None
         self._treatment_start_ms = 0
         self._explored = 0

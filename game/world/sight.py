@@ -7,6 +7,8 @@ fractions, so that the result is the same on every machine.
 
 from __future__ import annotations
 
+from functools import cache, lru_cache
+from itertools import product
 from math import lcm
 from typing import NamedTuple
 
@@ -30,81 +32,111 @@ class Sight:
         return field
 
 
-def opaque(plan: Plan, cell: Cell, viewer: Cell) -> bool:
-    """Whether `cell` blocks the view from `viewer`: walls do, and doors unless the viewer stands
-    in the door or right beside it."""
-    tile = plan.tile(cell)
-    if tile is Tile.DOOR:
-        return abs(cell[0] - viewer[0]) + abs(cell[1] - viewer[1]) > 1
-    return tile is Tile.WALL
+@lru_cache(maxsize=8)
+def sight_in(plan: Plan, radius: int) -> Sight:
+    """The sight that all missions in one building share."""
+    return Sight(plan, radius)
 
 
 def field_of_view(plan: Plan, viewer: Cell, radius: int) -> int:
-    """The mask of cells within `radius` (Chebyshev) that `viewer` sees."""
-    seen = {viewer}
-    for ahead in (Heading.NORTH, Heading.SOUTH):
-        for aside in (Heading.EAST, Heading.WEST):
-            _Octant(plan, viewer, ahead, aside).scan(radius, seen)
-            _Octant(plan, viewer, aside, ahead).scan(radius, seen)
-    return plan.mask(seen)
+    """The mask of cells within `radius` (Chebyshev) that `viewer` sees.
 
-
-class _Octant(NamedTuple):
-    """The eighth of the view between straight `ahead` and the diagonal to `aside`.
-
-    Row `distance` has the places 0..distance, counted from straight ahead; place k spans the
-    angles from k / (distance + 1) to (k + 1) / (distance + 1), scaled to integers by `unit`.
+    Walls block the view, and so do doors unless the viewer stands in the door or right beside it.
     """
-
-    plan: Plan
-    viewer: Cell
-    ahead: Heading
-    aside: Heading
-
-    def scan(self, radius: int, seen: set[Cell]) -> None:
-        """Add to `seen` what is in view, row by row, keeping the shadows that walls cast."""
-        unit = 2 * lcm(*range(1, radius + 2))
-        nearest_free = 0
-        shadows: list[tuple[int, int]] = []
-        for distance in range(1, radius + 1):
-            width = unit // (distance + 1)
-            cast_before = tuple(shadows)
-            anything_seen = False
-            for place in range(nearest_free // width, distance + 1):
-                cell = self._cell(distance, place)
-                if cell not in self.plan:
-                    continue
-                span = place * width, (place + 1) * width
-                blocks = opaque(self.plan, cell, self.viewer)
-                if cast_before and (
-                    not self._lit(distance, place, seen)
-                    or any(_shaded(span, shadow, blocks) for shadow in cast_before)
-                ):
-                    continue
-                seen.add(cell)
-                anything_seen = True
-                if not blocks:
-                    continue
-                if span[0] > nearest_free:
-                    shadows.append(span)
-                elif place == distance:
-                    return
-                else:
-                    nearest_free = span[1]
-            if not anything_seen:
-                return
-
-    def _cell(self, distance: int, place: int) -> Cell:
-        return self.aside.from_cell(self.ahead.from_cell(self.viewer, distance), place)
-
-    def _lit(self, distance: int, place: int, seen: set[Cell]) -> bool:
-        """Whether a cell of the row before, straight or diagonally behind, passes the view on."""
-        behind = (self._cell(distance - 1, place), self._cell(distance - 1, place - 1))
-        return any(cell in seen and not opaque(self.plan, cell, self.viewer) for cell in behind)
+    passing = {_HERE}
+    mask = 1 << plan.index(viewer)
+    for octant in _octants(radius):
+        mask |= _scan(octant, plan, viewer, passing)
+    return mask
 
 
-def _shaded(span: tuple[int, int], shadow: tuple[int, int], blocks: bool) -> bool:
-    """Whether `shadow` hides a cell: a wall when it is covered, a free cell when its centre is."""
+class _Place(NamedTuple):
+    """A place of an octant: where it lies from the viewer, the two places before it (straight and
+    diagonally towards the viewer), and the angles it spans."""
+
+    offset: Cell
+    straight: Cell
+    diagonal: Cell
+    start: int
+    end: int
+
+
+_Octant = tuple[tuple[_Place, ...], ...]
+"""The eighth of the view between straight ahead and a diagonal: its rows, nearest first."""
+
+_HERE: Cell = (0, 0)
+
+
+@cache
+def _octants(radius: int) -> tuple[_Octant, ...]:
+    """Row d of an octant has the places 0..d, counted from straight ahead; place k spans the
+    angles from k / (d + 1) to (k + 1) / (d + 1), scaled to integers."""
+    unit = 2 * lcm(*range(1, radius + 2))
+    sides = product((Heading.NORTH, Heading.SOUTH), (Heading.EAST, Heading.WEST))
+    return tuple(
+        tuple(
+            tuple(_place(ahead, aside, d, k, unit // (d + 1)) for k in range(d + 1))
+            for d in range(1, radius + 1)
+        )
+        for upright, level in sides
+        for ahead, aside in ((upright, level), (level, upright))
+    )
+
+
+def _place(ahead: Heading, aside: Heading, distance: int, number: int, width: int) -> _Place:
+    behind = ahead.from_cell(_HERE, distance - 1)
+    return _Place(
+        offset=aside.from_cell(ahead.from_cell(_HERE, distance), number),
+        straight=aside.from_cell(behind, number),
+        diagonal=aside.from_cell(behind, number - 1),
+        start=number * width,
+        end=(number + 1) * width,
+    )
+
+
+def _scan(octant: _Octant, plan: Plan, viewer: Cell, passing: set[Cell]) -> int:
+    """The mask of what is seen in one octant, row by row, keeping the shadows that walls cast.
+
+    `passing` are the offsets of what is seen and does not block, in all octants so far.
+    """
+    left, top = viewer
+    width, height, tiles = plan.width, plan.height, plan.tiles
+    mask = 0
+    nearest_free = 0
+    shadows: list[tuple[int, int]] = []
+    for row in octant:
+        cast_before = tuple(shadows)
+        anything_seen = False
+        for place in row:
+            offset, straight, diagonal, start, end = place
+            x, y = left + offset[0], top + offset[1]
+            if end <= nearest_free or not (0 <= x < width and 0 <= y < height):
+                continue
+            tile = tiles[y * width + x]
+            blocks = tile == Tile.WALL or (tile == Tile.DOOR and straight != _HERE)
+            if cast_before and (
+                not (straight in passing or diagonal in passing)
+                or _shaded(start, end, blocks, cast_before)
+            ):
+                continue
+            mask |= 1 << (y * width + x)
+            anything_seen = True
+            if not blocks:
+                passing.add(offset)
+            elif start > nearest_free:
+                shadows.append((start, end))
+            elif place is row[-1]:
+                return mask
+            else:
+                nearest_free = end
+        if not anything_seen:
+            break
+    return mask
+
+
+def _shaded(start: int, end: int, blocks: bool, shadows: tuple[tuple[int, int], ...]) -> bool:
+    """Whether a shadow hides a place: a wall when it is covered, a free cell when its centre is."""
     if blocks:
-        return shadow[0] <= span[0] and span[1] <= shadow[1]
-    return 2 * shadow[0] < span[0] + span[1] < 2 * shadow[1]
+        return any(shadow[0] <= start and end <= shadow[1] for shadow in shadows)
+    centre = start + end
+    return any(2 * shadow[0] < centre < 2 * shadow[1] for shadow in shadows)

@@ -9,8 +9,8 @@ import tcod.map
 
 from game.world.geometry import Cell, Heading
 from game.world.library import load_building, shipped_buildings
-from game.world.plan import Plan
-from game.world.sight import Sight, field_of_view, opaque
+from game.world.plan import Plan, Tile
+from game.world.sight import Sight, field_of_view
 
 RADIUS = 5
 
@@ -18,6 +18,12 @@ RADIUS = 5
 def drawn(*rows: str) -> Plan:
     tiles = bytes("#+".find(glyph) + 1 for row in rows for glyph in row)
     return Plan(len(rows[0]), len(rows), tiles)
+
+
+def opaque(plan: Plan, cell: Cell, viewer: Cell) -> bool:
+    """The rule of design 4, said once more: what blocks the view from `viewer`."""
+    away = abs(cell[0] - viewer[0]) + abs(cell[1] - viewer[1])
+    return plan.tile(cell) is Tile.WALL or (plan.tile(cell) is Tile.DOOR and away > 1)
 
 
 def reference(plan: Plan, viewer: Cell) -> tuple[np.ndarray, tuple[int, int]]:

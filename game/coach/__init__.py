@@ -1,0 +1,1 @@
+"""The coach: the human model, the adaptive cycle, the route and the instructions."""
