@@ -25,12 +25,22 @@ class CoachAct(msgspec.Struct, frozen=True, tag_field="type"):
 
 
 class GoalSet(CoachAct, frozen=True, tag="goal_set"):
-    """The victim to rescue next. `route` is the planned order from here, goal first."""
+    """The victim to rescue next. `route` is the planned order from here, goal first.
+
+    `too_late`: the goal before could not be treated in time any more; `other_rescued`: a victim
+    was rescued that was not the goal.
+    """
 
     goal: str
     room: str | None
     route: tuple[str, ...]
-    reason: Literal["start", "rescued", "expired", "strayed", "other_rescued"]
+    reason: Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
+
+
+class NothingLeft(CoachAct, frozen=True, tag="nothing_left"):
+    """There is nobody left to lead the rescuer to; `notice` stands alone on the bar from now on."""
+
+    notice: str
 
 
 class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued"):
@@ -117,6 +127,7 @@ class PaceLearned(CoachAct, frozen=True, tag="pace_learned"):
 
 CoachRecord = (
     GoalSet
+    | NothingLeft
     | InstructionIssued
     | InstructionCompleted
     | Misstep

@@ -6,7 +6,8 @@ virtual one, a replay the logged times.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import NamedTuple
 
 from game.coach.api import Coach
@@ -16,7 +17,7 @@ from game.world.mission import Due, Mission, Order
 from game.world.observation import Observation
 
 RunRecord = MissionEvent | CoachRecord
-Recorder = Callable[[RunRecord], None]
+Recorder = Callable[[Sequence[RunRecord]], None]
 
 
 class _Pending(NamedTuple):
@@ -28,14 +29,16 @@ class _Pending(NamedTuple):
 class MissionRun:
     """One mission with its coach.
 
-    `record` receives everything that happens, in order: it must have made an action durable when
-    it returns, because the caller paints only after that.
+    `record` receives everything that happens, in order, once for each call that makes something
+    happen: it must have handed it to the operating system when it returns, because the caller
+    paints only after that. What it raises, the call raises.
     """
 
     def __init__(self, mission: Mission, coach: Coach, record: Recorder) -> None:
         self.mission = mission
         self.coach = coach
         self._record = record
+        self._happened: list[RunRecord] = []
         self._next_move_ms = 0
         self._pending: _Pending | None = None
 
@@ -53,7 +56,8 @@ class MissionRun:
 
     def begin(self) -> None:
         """Let the coach give its first instruction. Call once, at 0 ms."""
-        self._note(self.coach.begin(self.mission.observation()))
+        with self._recording():
+            self._happened += self.coach.begin(self.mission.observation())
 
     def observation(self) -> Observation:
         return self.mission.observation(self.coach.guidance)
@@ -61,15 +65,35 @@ class MissionRun:
     def press(self, action: Action, now_ms: int) -> None:
         """A key was pressed. Inside the pace a move waits for its moment and replaces one that
         still waits; triage acts at once."""
-        self.advance(now_ms)
-        self._pending = None
-        if action is Action.TRIAGE or now_ms >= self._next_move_ms:
-            self._act(action, now_ms, now_ms)
-        else:
-            self._pending = _Pending(action, self._next_move_ms, now_ms)
+        with self._recording():
+            self._advance(now_ms)
+            self._pending = None
+            if action is Action.TRIAGE or now_ms >= self._next_move_ms:
+                self._act(action, now_ms, now_ms)
+            else:
+                self._pending = _Pending(action, self._next_move_ms, now_ms)
 
     def advance(self, now_ms: int) -> None:
         """Let everything happen that is due by `now_ms`, each at its own time."""
+        with self._recording():
+            self._advance(now_ms)
+
+    def act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
+        """Carry out an action at its recorded time, as a replay does: pacing is already in it."""
+        with self._recording():
+            self._advance(at_ms)
+            self._act(action, at_ms, pressed_ms)
+
+    @contextmanager
+    def _recording(self) -> Iterator[None]:
+        try:
+            yield
+        finally:
+            if self._happened:
+                happened, self._happened = self._happened, []
+                self._record(happened)
+
+    def _advance(self, now_ms: int) -> None:
         while not self.ended:
             pending = self._pending
             if pending is not None and pending.due_ms <= now_ms:
@@ -81,11 +105,6 @@ class MissionRun:
                 break
         if not self.ended:
             self._tell(self.mission.step(None, now_ms))
-
-    def act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
-        """Carry out an action at its recorded time, as a replay does: pacing is already in it."""
-        self.advance(at_ms)
-        self._act(action, at_ms, pressed_ms)
 
     def _act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
         if self.ended:
@@ -106,15 +125,11 @@ class MissionRun:
         while not self.ended and (due := self._next_due()).at_ms <= now_ms:
             if due.order is Order.EVALUATION:
                 self.mission.pass_time(due.at_ms)
-                self._note(self.coach.evaluate(due.at_ms, self.mission.observation()))
+                self._happened += self.coach.evaluate(due.at_ms, self.mission.observation())
             else:
                 self._tell(self.mission.fire_next())
 
     def _tell(self, events: Iterable[MissionEvent]) -> None:
         for event in events:
-            self._record(event)
-            self._note(self.coach.told(event, self.mission.observation()))
-
-    def _note(self, records: Iterable[CoachRecord]) -> None:
-        for record in records:
-            self._record(record)
+            self._happened.append(event)
+            self._happened += self.coach.told(event, self.mission.observation())

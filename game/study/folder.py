@@ -31,8 +31,8 @@ from game.world.labels import HALF_BLOCKS, fit_label
 
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
 MODES: tuple[Mode, ...] = ("live", "pilot", "simulated")
-MAP_MARGIN_ROWS = 4
-"""Rows of the fixed screen that the map of a building leaves to the clock and the words."""
+MAP_MARGIN = (22, 4)
+"""Columns and rows of the fixed screen that a building's map leaves to names, clock and keys."""
 
 _BUILDINGS = {"first": "foundry", "second": "harbour", "practice": "practice"}
 _PSEUDONYM = re.compile(r"[A-Za-z0-9_-]{1,32}")
@@ -197,11 +197,11 @@ def _building(folder: Path, name: str) -> Building:
 
 def _check_map(building: Building, screen: ScreenSize) -> None:
     """The memorise map shows the whole building at once, with every name. Raises StudyError."""
-    columns = building.plan.width
-    rows = -(-building.plan.height // HALF_BLOCKS.cells) + MAP_MARGIN_ROWS
+    columns = building.plan.width + MAP_MARGIN[0]
+    rows = -(-building.plan.height // HALF_BLOCKS.cells) + MAP_MARGIN[1]
     if columns > screen.columns or rows > screen.rows:
         raise StudyError(
-            f"{building.name} does not fit the study's screen: its map takes {columns} x {rows}",
+            f"{building.name} does not fit the study's screen: with its names it takes {columns} x {rows}",
             place=f"{SETTINGS}, screen",
             mend="Enlarge [screen], or choose a smaller building",
         )

@@ -51,7 +51,7 @@ class Progress:
     """How far a session has come.
 
     `begun` is the step under way, with `exposure_ms` of it seen; `endings` are those of the steps
-    behind. `over` tells that nothing follows: finished, declined or withdrawn.
+    behind. `over` tells that nothing follows: finished, `declined` or withdrawn.
     """
 
     begun: Step | None = None
@@ -59,6 +59,7 @@ class Progress:
     endings: Mapping[Step, Ending] = field(default_factory=dict)
     allocated: Allocated | None = None
     over: bool = False
+    declined: bool = False
 
     def after(self, envelope: Envelope, record: Record) -> Progress:
         """The progress once `record` has been written."""
@@ -74,7 +75,9 @@ class Progress:
                 )
             case Allocated():
                 return replace(self, allocated=record)
-            case Declined() | Withdrawn() | SessionEnded(reason="finished"):
+            case Declined():
+                return replace(self, over=True, declined=True)
+            case Withdrawn() | SessionEnded(reason="finished"):
                 return replace(self, over=True)
             case _:
                 return self

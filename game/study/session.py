@@ -28,7 +28,7 @@ from game.session.records import (
     TakenOver,
     Terminal,
 )
-from game.session.sink import FileSink, MemorySink, Sink, already_there
+from game.session.sink import FileSink, MemorySink, Sink
 from game.study.answers import Answers
 from game.study.chance import digest, number
 from game.study.folder import Identity, Study, StudyError, amendment
@@ -188,12 +188,13 @@ def open_session(
     silent_ms: int | None = None,
     clock: Clock | None = None,
     rescuer: str = PERSON,
-    sink: Callable[[Path], Sink] = FileSink,
+    sink: Callable[[Path], Sink] = FileSink.begin,
 ) -> StudySession:
     """Begin a session, or continue one that broke off.
 
-    Of one that is over nothing more is written. The caller holds the session's lock; `silent_ms` tells that it was taken from a process that
-    had written nothing for so long. A simulated session gives its `clock` and `MemorySink`.
+    Of one that is over nothing more is written. The caller holds the session's lock; `silent_ms`
+    tells that it was taken from a process that had written nothing for so long. A simulated
+    session gives its `clock` and `MemorySink`.
     Raises JournalError for a journal that cannot be written or read, LedgerError for a study that
     was changed, StudyError for a participant who has withdrawn.
     """
@@ -210,7 +211,7 @@ def open_session(
     if not path.exists() or b"\n" not in read_file(path):
         started = opening(study, identity, terminal, rescuer, simulated=rescuer != PERSON)
         journal = Journal.buffered(None, started, clock)
-        return StudySession(study, identity, journal, clock, lambda: _new_sink(path, sink))
+        return StudySession(study, identity, journal, clock, lambda: sink(path))
     transcript = read_journal(path)
     before = transcript.entries
     over = progress((entry.envelope, entry.record) for entry in before).over
@@ -219,7 +220,7 @@ def open_session(
         if over
         else Journal.resume(path, terminal, clock)
     )
-    session = StudySession(study, identity, journal, clock, lambda: _new_sink(path, sink), before)
+    session = StudySession(study, identity, journal, clock, lambda: sink(path), before)
     if over:
         return session
     if silent_ms is not None:
@@ -266,16 +267,3 @@ def _study_hash(before: Sequence[Entry]) -> str:
     ]
     last = copies[-1]
     return last.sha256 if last is not None else ""
-
-
-def _new_sink(path: Path, make: Callable[[Path], Sink]) -> Sink:
-    """A sink for a journal not yet begun; a first line that was never finished is dropped."""
-    sink = make(path)
-    if isinstance(sink, FileSink):
-        contents = sink.contents()
-        if b"\n" in contents:
-            sink.close()
-            raise already_there(path)
-        if contents:
-            sink.discard_stub()
-    return sink

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from game.coach.spec import CoachSpec
-from game.session.play import begin_mission
+from game.session.play import begin_mission, leave_mission
 from game.session.records import Exposed, QuestionnaireAnswer, QuizAnswer
 from game.session.run import MissionRun
 from game.study.chance import number, shuffled
@@ -183,12 +183,14 @@ class Playing:
         self.spec = spec
         self.settings = settings
         self.goals = goals
+        self.home = session.study.home(session.identity)
         self.journal = session.journal
         self.clock = session.clock
         self.run: MissionRun | None = None
         self._session = session
         self._seed = number(session.seed, "mission", name)
         self._told_ms = 0
+        self._left = False
 
     def begin(self) -> MissionRun:
         """Begin the mission, at 0 ms."""
@@ -204,6 +206,12 @@ class Playing:
         if run is None:
             return False
         return run.ended or (self.goals is not None and run.mission.rescued >= self.goals)
+
+    def leave(self, now_ms: int) -> None:
+        """Leave the mission at its time `now_ms`, if it has neither ended nor been left."""
+        if self.run is not None and not self.run.ended and not self._left:
+            self._left = True
+            leave_mission(self.run, self.journal, now_ms)
 
     def tick(self, now_ms: int) -> None:
         """Record how long the mission has been on the screen if a second has gone by."""

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 import msgspec
 
+from game.coach.records import Level
 from game.errors import AnaError
 
 LIKERT_POINTS = 5
@@ -39,6 +40,77 @@ class InstructorNames(_Part, frozen=True):
     first: str
     second: str
 
+    def of(self, round_: int) -> str:
+        """The instructor of round 1 or 2."""
+        return (self.first, self.second)[round_ - 1]
+
+
+class Lesson(Page, frozen=True):
+    """A page of practice; `map` tells that the practice building's map is shown beside it."""
+
+    map: bool = False
+
+
+class Lessons(_Part, frozen=True):
+    """What practice explains: how to walk, and each way in which instructors talk."""
+
+    walking: Lesson
+    steps: Lesson
+    doors: Lesson
+    names: Lesson
+
+    def of(self, level: Level) -> Lesson:
+        """The lesson about instructions of a level."""
+        return {Level.C1: self.steps, Level.C2: self.doors, Level.C3: self.names}[level]
+
+
+class Units(_Part, frozen=True):
+    """Words for times."""
+
+    minute: str
+    minutes: str
+    second: str
+    seconds: str
+
+    def time(self, ms: int) -> str:
+        """A time in whole seconds, rounded up: `3 minutes`, `1 minute 5 seconds`."""
+        minutes, seconds = divmod(-(-ms // 1000), 60)
+        parts = [f"{minutes} {self.minute if minutes == 1 else self.minutes}"] if minutes else []
+        if seconds or not minutes:
+            parts.append(f"{seconds} {self.second if seconds == 1 else self.seconds}")
+        return " ".join(parts)
+
+
+class Words(_Part, frozen=True):
+    """The small words of the screens: what keys do, and what is still to be done."""
+
+    go_on: str
+    yes: str
+    no: str
+    choose: str
+    move: str
+    answer: str
+    next: str
+    filter: str
+    clear: str
+    finish: str
+    left: str
+    still_open: str
+    finish_title: str
+    finish_text: str
+    stop_title: str
+    stop_text: str
+    stop_yes: str
+    stop_no: str
+    goodbye: Page
+    preflight: Page
+    too_small: str
+    size_fine: str
+    press_keys: str
+    keys_fine: str
+    busy: Page
+    trouble: Page
+
 
 class Texts(_Part, frozen=True):
     """texts.toml."""
@@ -47,6 +119,10 @@ class Texts(_Part, frozen=True):
     consent: Consent
     declined: Page
     practice: Page
+    lessons: Lessons
+    check: Page
+    check_right: Page
+    check_wrong: Page
     memorise: Page
     label: Page
     mission: Page
@@ -56,6 +132,8 @@ class Texts(_Part, frozen=True):
     reason: Page
     debrief: Page
     instructors: InstructorNames
+    units: Units
+    words: Words
 
 
 class Slider(_Part, frozen=True):
@@ -114,6 +192,14 @@ class Items(_Part, frozen=True):
         for identifier in ids:
             if ids.count(identifier) > 1:
                 raise ValueError(f"two items have the id {identifier}")
+
+
+def filled(page: Page, **facts: str) -> Page:
+    """The page with each `{name}` replaced by that fact; other braces stay as they are."""
+    title, body = page.title, page.body
+    for name, fact in facts.items():
+        title, body = title.replace(f"{{{name}}}", fact), body.replace(f"{{{name}}}", fact)
+    return Page(title=title, body=body)
 
 
 _Read = TypeVar("_Read", Texts, Items)

@@ -1,0 +1,46 @@
+"""C1: steps and turns relative to the heading; nothing about the building need be known."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from game.coach.instructions.scene import Instruction, Pose, Scene
+from game.coach.instructions.text import render
+from game.coach.instructions.vocabulary import Tuple
+from game.coach.instructions.way import legs, treats, turn
+from game.coach.records import Level
+
+MOST_LEGS = 3
+"""How many straight runs one instruction holds."""
+
+STOP: Tuple = ("Stop", "0 Steps")
+UTILIZE: Tuple = ("Utilize", "MedicalEquipment")
+
+
+def compose(scene: Scene, start: Pose, goal: str) -> Instruction:
+    """The next legs of the shortest way, and the treatment where they reach the goal."""
+    tuples: list[Tuple] = []
+    path = [start.cell]
+    pose = start
+    for leg in islice(legs(scene, start, goal), MOST_LEGS):
+        way = turn(pose.heading, leg.heading)
+        if way is not None:
+            tuples.append(("Turn", way.capitalize()))
+        tuples.append(("Walkforward", f"{len(leg.cells)} Steps"))
+        path += leg.cells
+        pose = leg.end
+    arrived = treats(scene, pose, goal)
+    if arrived:
+        tuples += [UTILIZE] if tuples else [STOP, UTILIZE]
+    return Instruction(
+        level=Level.C1,
+        shown_level=Level.C1,
+        goal=goal,
+        tuples=tuple(tuples),
+        text=render(Level.C1, tuple(tuples)),
+        start=start,
+        end=pose,
+        path=tuple(path),
+        treats=arrived,
+        accepts=frozenset({goal}),
+    )

@@ -1,0 +1,289 @@
+"""What a walker meets in a building, and where each C2 tuple that moves somebody leads.
+
+Everything here follows from the plan and the room names alone, so it is computed once a building,
+each part when first asked for. Cells are indices (`Plan.index`); a building's outer wall is closed,
+so an index never runs off the plan. `docs/instructions.md` tells the same in words.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from game.coach.instructions.vocabulary import MOST_COUNTED, Tuple
+from game.world.building import Building, Room
+from game.world.geometry import Cell, Heading
+from game.world.plan import Tile
+from game.world.regions import floor_regions
+from game.world.sight import Sight
+
+ABREAST = 5
+"""How far to the side a walker looks for doors and openings, in cells (at most the sight)."""
+
+
+EXIT_ROOM: Tuple = ("Exit", "Room")
+
+
+class Move(NamedTuple):
+    """Where carrying out the tuple `said` leads: `steps` cells in all, to `corner`, then straight
+    on to `end` with `heading`. `counted` is the highest number it makes the walker count to."""
+
+    said: Tuple
+    corner: int
+    end: int
+    heading: Heading
+    steps: int
+    counted: int = 1
+
+
+class Met(NamedTuple):
+    """A door or an intersection that comes abreast `to_end` steps before the floor ends; `beyond`
+    is the first cell behind a door that can be walked through."""
+
+    name: str
+    to_end: int
+    side: Heading
+    door: int | None
+    beyond: int | None
+
+
+class Landmarks:
+    """The landmarks of one building for walkers with one radius of sight."""
+
+    def __init__(self, building: Building, sight_radius: int) -> None:
+        self.building = building
+        self.sight = Sight(building.plan, sight_radius)
+        self.strides = (-building.plan.width, 1, building.plan.width, -1)
+        self.reach = min(ABREAST, sight_radius)
+        self._tiles = building.plan.tiles
+        self._runs: dict[tuple[int, Heading], tuple[Met, ...]] = {}
+        self._moves: dict[tuple[int, Heading], tuple[Move, ...]] = {}
+        self._exits: dict[str, dict[int, Move]] = {}
+        self._lookouts: dict[Cell, int] = {}
+
+    def moves(self, start: int, heading: Heading) -> tuple[Move, ...]:
+        """Every tuple that can be carried out straight ahead from `start`, facing `heading`."""
+        key = start, heading
+        moves = self._moves.get(key)
+        if moves is None:
+            moves = self._moves[key] = tuple(self._find_moves(start, heading))
+        return moves
+
+    def exit(self, start: int) -> Move | None:
+        """`Exit Room`: the shortest way over the room's floor to its nearest door cell, through the
+        door and onto the first cell beyond. None outside rooms, where two door cells are equally
+        near, or where a door cell can be entered from two sides."""
+        room = self.building.room_at(self.building.plan.cell(start))
+        if room is None:
+            return None
+        exits = self._exits.get(room.name)
+        if exits is None:
+            exits = self._exits[room.name] = self._find_exits(room)
+        return exits.get(start)
+
+    def lookouts(self, target: Cell) -> int:
+        """The mask of cells from which `target` may be in view: within the radius, and with no
+        closed door between; a door is open to who stands in it or beside it."""
+        mask = self._lookouts.get(target)
+        if mask is None:
+            plan, radius = self.building.plan, self.sight.radius
+            near = range(max(0, target[0] - radius), min(plan.width, target[0] + radius + 1))
+            row = sum(1 << x for x in near)
+            square = sum(
+                row << y * plan.width
+                for y in range(max(0, target[1] - radius), min(plan.height, target[1] + radius + 1))
+            )
+            mask = square & (self._at_doors | self._region_of[target])
+            self._lookouts[target] = mask
+        return mask
+
+    def shares_floor(self, cell: int, target: Cell) -> bool:
+        """Whether no door lies between the two."""
+        return bool(self._region_of[target] >> cell & 1)
+
+    @cached_property
+    def _at_doors(self) -> int:
+        """The mask of all door cells and the cells beside them."""
+        doors = [cell for door in self.building.doors for cell in door.cells]
+        beside = [heading.from_cell(cell) for cell in doors for heading in Heading]
+        return self.building.plan.mask([*doors, *beside])
+
+    @cached_property
+    def _region_of(self) -> dict[Cell, int]:
+        """For every floor cell the mask of the floor that walls and doors close off around it."""
+        plan = self.building.plan
+        masks = {region: plan.mask(region) for region in floor_regions(plan)}
+        return {cell: mask for region, mask in masks.items() for cell in region}
+
+    def path(self, start: int, move: Move) -> list[int]:
+        """The cells that a move leads over, without its start."""
+        onward = self._straight(move.corner, move.end)
+        if move.said != EXIT_ROOM:
+            return self._straight(start, move.corner) + onward
+        cells = [start]
+        for steps in range(move.steps - 1, len(onward), -1):
+            around = (cells[-1] + stride for stride in self.strides)
+            ways = ((near, self.exit(near)) for near in around)
+            cells.append(next(near for near, way in ways if way is not None and way.steps == steps))
+        return [*cells[1:], move.corner, *onward]
+
+    def _straight(self, start: int, end: int) -> list[int]:
+        """The cells from `start`, left out, to `end` in one row or column."""
+        width = self.building.plan.width
+        stride = (1 if abs(end - start) < width else width) * (1 if end > start else -1)
+        return list(range(start + stride, end + stride, stride)) if end != start else []
+
+    def clear(self, start: int, heading: Heading) -> int:
+        """How many floor cells lie straight ahead before the first cell that is none."""
+        return self._clear[heading][start]
+
+    @cached_property
+    def _clear(self) -> tuple[list[int], ...]:
+        """For each heading and index: how many floor cells lie straight ahead before the first
+        cell that is none."""
+        size = len(self._tiles)
+        table = []
+        for heading in Heading:
+            stride = self.strides[heading]
+            clear = [0] * size
+            for start in range(size) if stride < 0 else range(size - 1, -1, -1):
+                ahead = start + stride
+                if 0 <= ahead < size and self._tiles[ahead] == Tile.FLOOR:
+                    clear[start] = clear[ahead] + 1
+            table.append(clear)
+        return tuple(table)
+
+    def _door_abreast(self, cell: int, side: Heading) -> int | None:
+        """The first cell to the `side` that is no floor, if it is a door cell within reach."""
+        distance = self._clear[side][cell] + 1
+        if distance > self.reach:
+            return None
+        door = cell + distance * self.strides[side]
+        return door if self._tiles[door] == Tile.DOOR else None
+
+    def _opens(self, cell: int, side: Heading) -> bool:
+        """Whether a way leads off to the `side`: floor as far as the walker looks."""
+        return self._clear[side][cell] >= ABREAST <= self.reach
+
+    def _find_moves(self, start: int, heading: Heading) -> list[Move]:
+        """All moves ahead: through doors, to doors and intersections, to the end of the floor."""
+        indoors = self.building.room_at(self.building.plan.cell(start)) is not None
+        verb = "Exit" if indoors else "Enter"
+        run = self.clear(start, heading)
+        moves = self._through_ahead(start, heading, run, verb)
+        if not run:
+            return moves
+        end = start + run * self.strides[heading]
+        moves.append(Move(("Proceed", "Room" if indoors else "Hallway"), end, end, heading, run))
+        counts: Counter[str] = Counter()
+        for met in self._met_on_run(end, heading):
+            steps = run - met.to_end
+            if steps <= 0 or (indoors and met.door is None):
+                continue
+            counts[met.name] += 1
+            count = counts[met.name]
+            if count > MOST_COUNTED:
+                continue
+            thing = f"{count} {met.name}"
+            cell = start + steps * self.strides[heading]
+            moves.append(Move(("Proceed", thing), cell, cell, heading, steps, count))
+            if met.beyond is not None:
+                total = steps + (met.beyond - cell) // self.strides[met.side]
+                moves.append(Move((verb, thing), cell, met.beyond, met.side, total, count))
+        return moves
+
+    def _met_on_run(self, end: int, heading: Heading) -> tuple[Met, ...]:
+        """What comes abreast on the straight floor that ends at `end`, in the order of meeting.
+
+        Cells of one doorway are met once, and so is a stretch from which a way leads off; what is
+        abreast of the cell before (a doorway into the run, at most) is not met again.
+        """
+        key = end, heading
+        found = self._runs.get(key)
+        if found is None:
+            found = self._runs[key] = tuple(self._survey(end, heading))
+        return found
+
+    def _survey(self, end: int, heading: Heading) -> Iterator[Met]:
+        stride = self.strides[heading]
+        sides = (heading.left, "left"), (heading.right, "right")
+        length = self.clear(end, heading.back) + 1
+        for to_end in range(length - 1, -1, -1):
+            cell = end - to_end * stride
+            for side, word in sides:
+                door, before = (
+                    self._door_abreast(cell, side),
+                    self._door_abreast(cell - stride, side),
+                )
+                if door is not None and (before is None or door - before != stride):
+                    yield Met(f"Door {word}", to_end, side, door, self._beyond(door, side))
+                if self._opens(cell, side) and not self._opens(cell - stride, side):
+                    yield Met(f"Intersection {word}", to_end, side, None, None)
+
+    def _through_ahead(self, start: int, heading: Heading, run: int, verb: str) -> list[Move]:
+        """Through the door straight ahead; and from a doorway onto the first cell beyond it."""
+        moves = []
+        door = start + (run + 1) * self.strides[heading]
+        if self._tiles[door] == Tile.DOOR:
+            beyond = self._beyond(door, heading)
+            if beyond is not None:
+                steps = (beyond - start) // self.strides[heading]
+                moves.append(Move((verb, "Door"), beyond, beyond, heading, steps))
+        if self._tiles[start] == Tile.DOOR:
+            beyond = self._beyond(start, heading)
+            if beyond is not None:
+                steps = (beyond - start) // self.strides[heading]
+                named = self.building.room_at(self.building.plan.cell(beyond))
+                said = "Enter", "Hallway" if named is None else "Room"
+                moves.append(Move(said, beyond, beyond, heading, steps))
+        return moves
+
+    def _beyond(self, door: int, heading: Heading) -> int | None:
+        """The first cell behind a door walked through straight; None where a wall is behind it."""
+        stride = self.strides[heading]
+        while self._tiles[door] == Tile.DOOR:
+            door += stride
+        return door if self._tiles[door] == Tile.FLOOR else None
+
+    def _find_exits(self, room: Room) -> dict[int, Move]:
+        """`Exit Room` from each cell of a room where one door cell is nearest."""
+        plan = self.building.plan
+        floor = {plan.index(cell) for cell in room.cells}
+        doorways = (self.building.doors[door] for door in room.doors)
+        doors = [plan.index(cell) for doorway in doorways for cell in doorway.cells]
+        beyond = {door: self._way_out(door, floor) for door in doors}
+        exits: dict[int, Move] = {}
+        for cell, (steps, door) in self._nearest(doors, floor).items():
+            out = None if door is None else beyond[door]
+            if door is not None and out is not None:
+                heading, end = out
+                onward = (end - door) // self.strides[heading]
+                exits[cell] = Move(EXIT_ROOM, door, end, heading, steps + onward)
+        return exits
+
+    def _way_out(self, door: int, floor: set[int]) -> tuple[Heading, int] | None:
+        """Which way a door cell leads out of a room's `floor`, and the first cell beyond it; None
+        where it leads nowhere or can be entered from two sides."""
+        ways = [heading for heading in Heading if door - self.strides[heading] in floor]
+        beyond = self._beyond(door, ways[0]) if len(ways) == 1 else None
+        return None if beyond is None else (ways[0], beyond)
+
+    def _nearest(self, doors: list[int], floor: set[int]) -> dict[int, tuple[int, int | None]]:
+        """For every cell of a room's `floor`: the steps over it to the nearest of `doors`, and
+        that door cell; None where two are equally near."""
+        nearest: dict[int, tuple[int, int | None]] = {}
+        frontier: dict[int, int | None] = {door: door for door in doors}
+        steps = 0
+        while frontier:
+            steps += 1
+            reached: dict[int, int | None] = {}
+            for cell, door in frontier.items():
+                for stride in self.strides:
+                    near = cell + stride
+                    if near in floor and near not in nearest:
+                        reached[near] = door if reached.get(near, door) == door else None
+            nearest |= {cell: (steps, door) for cell, door in reached.items()}
+            frontier = reached
+        return nearest

@@ -1,0 +1,91 @@
+"""From tuples to English. The words come from the tuples alone."""
+
+from __future__ import annotations
+
+from game.coach.instructions.vocabulary import ORDINALS, Tuple, Tuples
+from game.coach.records import Level
+
+
+def render(level: Level, tuples: Tuples) -> str:
+    """The sentences that say `tuples`, one each. Raises ValueError for a tuple that `level` does
+    not have."""
+    return " ".join(_SENTENCES[level](said) for said in tuples)
+
+
+def _at_c1(said: Tuple) -> str:
+    match said:
+        case "Turn", ("Left" | "Right" | "Around") as way:
+            return f"Turn {way.lower()}."
+        case "Walkforward", "1 Steps":
+            return "Walk forward 1 step."
+        case "Walkforward", count:
+            return f"Walk forward {count.removesuffix(' Steps')} steps."
+        case "Stop", _:
+            return "Stop."
+        case "Utilize", "MedicalEquipment":
+            return "Utilize medical equipment."
+    raise _not_of(Level.C1, said)
+
+
+def _at_c2(said: Tuple) -> str:
+    action, phrase = said
+    match action, *phrase.split():
+        case "Turn", way:
+            return f"Turn {way.lower()}."
+        case "Proceed", "Hallway":
+            return "Proceed to the end of the hallway."
+        case "Proceed", "Room":
+            return "Proceed to the end of the room."
+        case "Proceed", _, ("redvictim" | "BlueVictim") as victim:
+            return f"Proceed until you see a {_colour(victim)} victim."
+        case "Proceed", count, thing, *side:
+            return f"Proceed to the {_counted(count, thing, side)}."
+        case "Enter" | "Exit", *where:
+            return _through(action, where)
+        case "ApproachAndSave", victim:
+            return f"Approach and save the {_colour(victim)} victim."
+    raise _not_of(Level.C2, said)
+
+
+def _through(action: str, where: list[str]) -> str:
+    verb = "Enter" if action == "Enter" else "Exit by"
+    match where:
+        case ["Room" | "Hallway" as thing]:
+            return f"{action} the {thing.lower()}."
+        case ["Door"]:
+            return f"{verb} the door ahead."
+        case [count, "Door", side]:
+            return f"{verb} the {_counted(count, 'Door', [side])}."
+    raise _not_of(Level.C2, (action, " ".join(where)))
+
+
+def _at_c3(said: Tuple) -> str:
+    match said:
+        case "Goto", room:
+            return f"Go to {_with_article(room)}."
+        case "Triage", victim:
+            return f"Triage the {_colour(victim)} victim."
+    raise _not_of(Level.C3, said)
+
+
+_SENTENCES = {Level.C1: _at_c1, Level.C2: _at_c2, Level.C3: _at_c3}
+
+
+def _counted(count: str, thing: str, side: list[str]) -> str:
+    where = f" on your {side[0]}" if side else ""
+    return f"{ORDINALS[int(count) - 1]} {thing.lower()}{where}"
+
+
+def _colour(victim: str) -> str:
+    return victim.lower().removesuffix("victim")
+
+
+def _with_article(room: str) -> str:
+    """`the Records Room`, but `Office A` and `Room 12`, which are names by themselves."""
+    last = room.split()[-1]
+    is_proper = len(last) == 1 or any(letter.isdigit() for letter in last)
+    return room if is_proper or room.lower().startswith("the ") else f"the {room}"
+
+
+def _not_of(level: Level, said: Tuple) -> ValueError:
+    return ValueError(f"{said} is no tuple of level {level.name}")

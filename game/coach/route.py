@@ -1,0 +1,268 @@
+"""The route: in which order to rescue the victims that still wait.
+
+A prize-collecting tour with deadlines, built by cheapest insertion and mended by a local search
+(2-opt: Croes, 1958; or-opt: Or, 1976). It ends by iterations, never by time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from random import Random
+
+from game.world.building import Severity, VictimSite
+from game.world.floodfill import UNREACHABLE, Floodfills
+from game.world.geometry import Cell
+from game.world.settings import MissionSettings
+
+WEIGHTS = {Severity.RED: 3, Severity.BLUE: 2}
+"""What a rescue is worth to the route: a red victim one and a half times a blue one."""
+
+SPARE_MOVES = 5
+"""Red victims are planned to be rescued so many moves before they expire."""
+
+SEARCH_ROUNDS = 40
+"""How many times one start of the search is improved at most."""
+
+_SEGMENT = 3
+
+_Order = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Route:
+    """Victims in the order of their rescue, and when each is expected to be rescued (mission ms).
+
+    `worth` is the sum of their `WEIGHTS`; `left_out` are waiting victims that cannot be rescued in
+    time along with them.
+    """
+
+    order: tuple[str, ...]
+    rescue_ms: tuple[int, ...]
+    worth: int
+    left_out: tuple[str, ...]
+
+    def saves(self, other: Route, least_ms: int) -> bool:
+        """Whether this route is worth more than `other`, or as much and over by `least_ms`
+        earlier."""
+        if self.worth != other.worth or not self.order:
+            return self.worth > other.worth
+        return self.rescue_ms[-1] + least_ms <= other.rescue_ms[-1]
+
+
+class RoutePlanner:
+    """Routes through one building. `victims` are all that may ever wait in it.
+
+    A victim is treated from beside it. Each has one *stand*, the neighbouring cell that is nearest
+    to the other victims; from there the way to the next begins.
+    """
+
+    def __init__(
+        self,
+        floodfills: Floodfills,
+        settings: MissionSettings,
+        victims: Mapping[str, VictimSite],
+        seed: int = 0,
+    ) -> None:
+        self._plan = floodfills.plan
+        self._settings = settings
+        self._seed = seed
+        self._sites = dict(victims)
+        self._to = {name: floodfills.to(site.cell) for name, site in victims.items()}
+        self._moves = {name: self._moves_from(self._stand(name)) for name in victims}
+
+    def plan(
+        self,
+        position: Cell,
+        time_ms: int,
+        waiting: Collection[str],
+        *,
+        ms_per_move: int,
+        before: Sequence[str] = (),
+    ) -> Route:
+        """The best route found from `position` at `time_ms` through the victims `waiting`.
+
+        `before` is the route followed so far, from which the search may start. One move's time is
+        allowed for beginning each treatment.
+        """
+        search = self._search(position, time_ms, waiting, ms_per_move)
+        return search.route(search.best(before, Random(f"route {self._seed}")), waiting)
+
+    def along(
+        self, order: Sequence[str], position: Cell, time_ms: int, *, ms_per_move: int
+    ) -> Route:
+        """The route that keeps to `order` and passes by whoever would be too late."""
+        search = self._search(position, time_ms, order, ms_per_move)
+        return search.route(search.numbered(order), order)
+
+    def _search(
+        self, position: Cell, time_ms: int, victims: Collection[str], ms_per_move: int
+    ) -> _Search:
+        start = self._moves_from(self._plan.index(position))
+        names = tuple(name for name in victims if start[name] < UNREACHABLE - 1)
+        sites = [self._sites[name] for name in names]
+        rows = [[row[name] for name in names] for row in map(self._moves.__getitem__, names)]
+        rows.append([start[name] for name in names])
+        return _Search(
+            names=names,
+            travel=[[moves * ms_per_move for moves in row] + [0] for row in rows],
+            stay=[ms_per_move + self._settings.treatment_ms(site.severity) for site in sites],
+            due=[self._due_ms(site, SPARE_MOVES * ms_per_move) for site in sites],
+            weight=[WEIGHTS[site.severity] for site in sites],
+            begin_ms=time_ms,
+        )
+
+    def _due_ms(self, site: VictimSite, spare_ms: int) -> int:
+        settings = self._settings
+        if site.severity is Severity.RED:
+            return min(settings.red_expiry_ms - spare_ms, settings.duration_ms)
+        return settings.duration_ms
+
+    def _stand(self, name: str) -> int:
+        plan = self._plan
+        beside = plan.neighbours[plan.index(self._sites[name].cell)]
+        return min(beside, key=lambda index: sum(to[index] for to in self._to.values()))
+
+    def _moves_from(self, index: int) -> dict[str, int]:
+        """Moves from a cell until each victim is in reach."""
+        return {name: max(0, to[index] - 1) for name, to in self._to.items()}
+
+
+def plan_route(
+    floodfills: Floodfills,
+    settings: MissionSettings,
+    position: Cell,
+    time_ms: int,
+    waiting: Mapping[str, VictimSite],
+    *,
+    seed: int,
+    ms_per_move: int,
+) -> Route:
+    """One route without a history; see `RoutePlanner`, which keeps what successive plans share."""
+    planner = RoutePlanner(floodfills, settings, waiting, seed)
+    return planner.plan(position, time_ms, tuple(waiting), ms_per_move=ms_per_move)
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Orders of n victims, numbered from 0 as in `names`; number n stands for where and how the
+    route begins and ends, so `travel[n]` leads from the rescuer and `travel[i][n]` is 0. Times in
+    ms."""
+
+    names: tuple[str, ...]
+    travel: list[list[int]]
+    stay: list[int]
+    due: list[int]
+    weight: list[int]
+    begin_ms: int
+
+    def numbered(self, names: Iterable[str]) -> _Order:
+        number = {name: i for i, name in enumerate(self.names)}
+        return tuple(number[name] for name in names if name in number)
+
+    def route(self, order: _Order, waiting: Iterable[str]) -> Route:
+        """The route of `order` among all who wait."""
+        row, at_ms, rescues, worth = self.travel[-1], self.begin_ms, {}, 0
+        for i in self.served(order):
+            at_ms += row[i] + self.stay[i]
+            row = self.travel[i]
+            rescues[self.names[i]] = at_ms
+            worth += self.weight[i]
+        left_out = tuple(name for name in waiting if name not in rescues)
+        return Route(tuple(rescues), tuple(rescues.values()), worth, left_out)
+
+    def best(self, before: Iterable[str], random: Random) -> _Order:
+        """The best order found from two starts: one that puts in the earliest deadlines first, and
+        the order followed `before` (a random one where there is none)."""
+        n = len(self.names)
+        numbers = sorted(range(n), key=lambda i: (self.due[i], self.travel[n][i]))
+        first = self._improved(self._inserted((), numbers))
+        followed = self.served(self.numbered(before))
+        if not followed:
+            random.shuffle(numbers)
+        second = self._improved(self._inserted(followed, numbers))
+        return max(first, second, key=self.value)
+
+    def value(self, order: _Order) -> tuple[int, int]:
+        """What a walk in this order is worth: the weight of those rescued in time, then how early
+        the last is. Whoever would be too late is passed by."""
+        row, at_ms, worth = self.travel[-1], self.begin_ms, 0
+        for i in order:
+            done_ms = at_ms + row[i] + self.stay[i]
+            if done_ms <= self.due[i]:
+                row, at_ms, worth = self.travel[i], done_ms, worth + self.weight[i]
+        return worth, -at_ms
+
+    def served(self, order: _Order) -> _Order:
+        """Those of `order` who are rescued in time."""
+        row, at_ms, served = self.travel[-1], self.begin_ms, []
+        for i in order:
+            done_ms = at_ms + row[i] + self.stay[i]
+            if done_ms <= self.due[i]:
+                row, at_ms = self.travel[i], done_ms
+                served.append(i)
+        return tuple(served)
+
+    def _inserted(self, order: _Order, numbers: Iterable[int]) -> _Order:
+        """`order` with each of `numbers` that it lacks put in where that is worth most."""
+        for i in numbers:
+            if i not in order:
+                order = self.served(self._with(order, i))
+        return order
+
+    def _with(self, order: _Order, i: int) -> _Order:
+        """`order` with `i` put in where the whole is worth most, or without it if that is more.
+
+        The places are tried by how much they lengthen the way, so that the first at which nobody
+        is late is the best.
+        """
+        travel, ends = self.travel, (len(self.names),)
+        added = [
+            travel[a][i] + travel[i][b] - travel[a][b] for a, b in pairwise(ends + order + ends)
+        ]
+        best, value = order, self.value(order)
+        all_in_time = value[0] + self.weight[i]
+        for k in sorted(range(len(added)), key=added.__getitem__):
+            candidate = (*order[:k], i, *order[k:])
+            if (candidate_value := self.value(candidate)) > value:
+                best, value = candidate, candidate_value
+            if candidate_value[0] == all_in_time:
+                break
+        return best
+
+    def _improved(self, order: _Order) -> _Order:
+        """What becomes of `order` in at most `SEARCH_ROUNDS` improvements."""
+        value = self.value(order)
+        for _ in range(SEARCH_ROUNDS):
+            better = next((o for o in self._shorter(order) if self.value(o) > value), None)
+            if better is None:
+                better = self._inserted(order, range(len(self.names)))
+            if self.value(better) <= value:
+                break
+            order, value = self.served(better), self.value(better)
+        return order
+
+    def _shorter(self, order: _Order) -> Iterator[_Order]:
+        """The orders one 2-opt or or-opt change away whose way is shorter."""
+        travel, end = self.travel, len(self.names)
+        path = (end, *order, end)
+        for i in range(len(order)):
+            row, first = travel[path[i]], path[i + 1]
+            for e in range(i + 1, len(order) + 1):
+                last, follow = path[e], path[e + 1]
+                leave, away = row[first], travel[last][follow]
+                if row[last] + travel[first][follow] < leave + away:
+                    yield order[:i] + order[i:e][::-1] + order[e:]
+                if e - i <= _SEGMENT:
+                    saved = leave + away - row[follow]
+                    yield from self._moved(order[:i] + order[e:], order[i:e], saved)
+
+    def _moved(self, rest: _Order, segment: _Order, saved: int) -> Iterator[_Order]:
+        """`segment` put into `rest` wherever that adds less than `saved`."""
+        first, leave, before = segment[0], self.travel[segment[-1]], len(self.names)
+        for k, after in enumerate((*rest, len(self.names))):
+            row = self.travel[before]
+            if row[first] + leave[after] - row[after] < saved:
+                yield rest[:k] + segment + rest[k:]
+            before = after

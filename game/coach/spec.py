@@ -1,0 +1,83 @@
+"""Which coach plays a mission, as a value that a journal keeps and a command line gives."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import Literal, get_args
+
+import msgspec
+
+from game.coach.api import Briefing, Coach
+from game.coach.coaches import AdaptiveCoach, PaceCoach, StaticCoach
+from game.coach.presets import PRESETS, preset
+from game.coach.records import Level
+from game.errors import AnaError
+
+CoachKind = Literal["static", "ana", "pace"]
+
+DEFAULT_LEVEL = Level.C2
+DEFAULT_PRESET = "calibrated"
+
+
+class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A coach: `ana` adapts its level as the preset says; `static` and `pace` keep theirs.
+
+    Raises ValueError, naming the field, where one is missing, unknown or of no use to the kind.
+    """
+
+    kind: CoachKind
+    level: Level | None = None
+    preset: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind == "ana":
+            if self.level is not None:
+                raise ValueError("coach field level: ana finds its own; give a preset instead")
+            if self.preset not in PRESETS:
+                raise ValueError(f"coach field preset must be one of {', '.join(PRESETS)}")
+        else:
+            if self.preset is not None:
+                raise ValueError(f"coach field preset: {self.kind} has none; give a level instead")
+            if self.level is None:
+                raise ValueError(f"coach field level: {self.kind} needs one")
+
+
+def parse_coach(kind: str, level: int | None = None, preset: str | None = None) -> CoachSpec:
+    """The coach that these names mean, with the usual level or preset where none is given.
+
+    Raises AnaError, with the nearest right name, for a name that is none, and for a level or a
+    preset that the coach does not have.
+    """
+    kinds = {name: name for name in get_args(CoachKind)}
+    if kind not in kinds:
+        raise _unknown("coach", kind, tuple(kinds))
+    if kind == "ana":
+        if level is not None:
+            mend = "Leave --level out, or give --coach static with it."
+            raise AnaError("the coach ana finds the level itself", place="--level", mend=mend)
+        chosen = DEFAULT_PRESET if preset is None else preset
+        if chosen not in PRESETS:
+            raise _unknown("preset", chosen, tuple(PRESETS))
+        return CoachSpec("ana", preset=chosen)
+    if preset is not None:
+        mend = "Leave --preset out, or give --coach ana with it."
+        raise AnaError(f"the coach {kind} has no presets", place="--preset", mend=mend)
+    chosen_level = DEFAULT_LEVEL if level is None else level
+    if chosen_level not in tuple(Level):
+        raise AnaError(f"there is no level {level}", place="--level", mend="Give 1, 2 or 3.")
+    return CoachSpec(kinds[kind], level=Level(chosen_level))
+
+
+def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
+    """A new coach for one mission, which knows the briefing and nothing else."""
+    if spec.preset is not None:
+        return AdaptiveCoach(briefing, preset(spec.preset))
+    assert spec.level is not None
+    return (PaceCoach if spec.kind == "pace" else StaticCoach)(briefing, spec.level)
+
+
+def _unknown(what: str, name: str, names: tuple[str, ...]) -> AnaError:
+    near = get_close_matches(name.casefold(), names, n=1)
+    choice = f"Did you mean {near[0]}? " if near else ""
+    mend = f"{choice}There are {', '.join(names)}."
+    return AnaError(f"there is no {what} '{name}'", place=f"--{what}", mend=mend)

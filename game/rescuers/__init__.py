@@ -1,0 +1,1 @@
+"""Simulated people, who see the same Observation as the screen and nothing more."""

@@ -1,0 +1,1 @@
+"""A mission and a coach played together, the journal, replay and verification."""

@@ -1,0 +1,81 @@
+"""Tables described by the types of their rows: what each column means, its unit and its values.
+
+A row is a `msgspec.Struct` whose fields are `Annotated` with `column(...)`. From that one place
+come the header of a table, its codebook, and the text of its cells.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from functools import cache
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import msgspec
+
+DIGITS = 9
+"""Reals are written to this many places after the point."""
+
+
+def column(meaning: str, unit: str = "") -> msgspec.Meta:
+    """What a field of a row means, and the unit of its values."""
+    return msgspec.Meta(description=meaning, extra={"unit": unit})
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table. `values` says in words what a cell can hold; where `optional`, a cell
+    is empty if there is nothing to tell."""
+
+    name: str
+    meaning: str
+    unit: str
+    values: str
+    optional: bool
+
+
+@cache
+def columns(row: type[msgspec.Struct]) -> tuple[Column, ...]:
+    """The columns of a table with such rows, in order.
+
+    Raises TypeError, naming the field, where one is not described.
+    """
+    hints = get_type_hints(row, include_extras=True)
+    return tuple(_described(name, hints[name]) for name in row.__struct_fields__)
+
+
+def cells(row: msgspec.Struct) -> Iterator[str]:
+    """The cells of a row as a table has them, in the order of its columns."""
+    for name in row.__struct_fields__:
+        yield cell(getattr(row, name))
+
+
+def cell(value: object) -> str:
+    """A value as text on one line: nothing for None, lower case for truths; no line breaks."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return repr(round(value, DIGITS) + 0.0)
+    return " ".join(str(value).split())
+
+
+def _described(name: str, hint: Any) -> Column:
+    if get_origin(hint) is not Annotated:
+        raise TypeError(f"the column {name} is not described")
+    kind, meta = get_args(hint)
+    kinds = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
+    known = [one for one in kinds if one is not type(None)]
+    values = " or ".join(_values(one) for one in known)
+    return Column(name, meta.description, meta.extra["unit"], values, len(known) < len(kinds))
+
+
+def _values(kind: Any) -> str:
+    if get_origin(kind) is Literal:
+        return ", ".join(map(str, get_args(kind)))
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return ", ".join(map(str, (member.value for member in kind)))
+    return {bool: "true, false", int: "whole number", float: "number", str: "text"}[kind]

@@ -1,0 +1,123 @@
+"""Replay: a recorded mission at any moment, forwards and backwards.
+
+The mission is played again from its recorded actions; what the coach did is taken from its
+records. So a journal can be replayed without the coach that made it; `game.session.verify` shows
+that the coach would do the same again.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from copy import deepcopy
+from typing import NamedTuple
+
+from game.coach.records import LevelChanged
+from game.session.errors import JournalError
+from game.session.missions import Happening, missions
+from game.session.reader import Transcript
+from game.session.run import RunRecord
+from game.session.thoughts import Thoughts
+from game.world.events import Acted, Expired, Rescued
+from game.world.mission import Mission
+from game.world.observation import Observation
+from game.world.reading import parse_building
+
+CHECKPOINT_MS = 10_000
+
+
+class _Moment(NamedTuple):
+    """The state of a replay after `done` records, at some time."""
+
+    done: int
+    mission: Mission
+    thoughts: Thoughts
+
+
+class Replay:
+    """One mission of a journal, standing at `time_ms` of its time: 0 at first.
+
+    Raises JournalError where the journal has no such mission (`number` counts from 0), and `seek`
+    where an action in it cannot be carried out.
+    """
+
+    def __init__(self, transcript: Transcript, number: int = 0) -> None:
+        recorded = missions(transcript)
+        if not 0 <= number < len(recorded):
+            raise JournalError(
+                f"there is no mission {number + 1}: the journal holds {len(recorded)}",
+                place=transcript.source,
+                mend="Give a journal in which a mission was begun.",
+            )
+        self.transcript = transcript
+        self.recorded = recorded[number]
+        self.started = self.recorded.started
+        self.building = parse_building(self.started.building_text, self.started.building)
+        self.duration_ms = self.recorded.until_ms
+        self._happened: Sequence[Happening] = self.recorded.happened
+        self._due = [happening.record.at_ms for happening in self._happened]
+        self._records = tuple(happening.record for happening in self._happened)
+        self._now = _Moment(0, Mission(self.building, self.started.settings), Thoughts())
+        self._checkpoints = [self._copy(self._now)]
+        self.time_ms = 0
+        self.seek(0)
+
+    @property
+    def thoughts(self) -> Thoughts:
+        """What the coach thinks now."""
+        return self._now.thoughts
+
+    @property
+    def records(self) -> tuple[RunRecord, ...]:
+        """All that has happened up to now, this moment included."""
+        return self._records[: self._now.done]
+
+    @property
+    def highlights(self) -> tuple[Rescued | Expired | LevelChanged, ...]:
+        """The rescues, expiries and changes of level of the whole mission, for a timeline."""
+        wanted = Rescued | Expired | LevelChanged
+        return tuple(record for record in self._records if isinstance(record, wanted))
+
+    def observation(self) -> Observation:
+        """What the rescuer saw at this moment, with the instruction on the bar."""
+        return self._now.mission.observation(self._now.thoughts.guidance)
+
+    def seek(self, to_ms: int) -> None:
+        """Go to `to_ms`, or the nearer end of the recording where that lies outside it."""
+        to_ms = min(max(0, to_ms), self.duration_ms)
+        if to_ms < self.time_ms:
+            self._go_back(to_ms)
+        end = bisect_right(self._due, to_ms)
+        while (next_ms := len(self._checkpoints) * CHECKPOINT_MS) <= to_ms:
+            self._play(bisect_right(self._due, next_ms), next_ms)
+            self._checkpoints.append(self._copy(self._now))
+        self._play(end, to_ms)
+        self.time_ms = to_ms
+
+    def _go_back(self, to_ms: int) -> None:
+        place = min(to_ms // CHECKPOINT_MS, len(self._checkpoints) - 1)
+        self._now = self._copy(self._checkpoints[place])
+
+    def _play(self, end: int, to_ms: int) -> None:
+        done, mission, thoughts = self._now
+        line = self.recorded.line
+        try:
+            for happening in self._happened[done:end]:
+                line, record = happening
+                thoughts = thoughts.after(record)
+                if isinstance(record, Acted):
+                    mission.step(record.action, record.at_ms, record.pressed_ms)
+            mission.step(None, to_ms)
+        except ValueError as error:
+            raise JournalError(
+                f"this action cannot be carried out ({error})",
+                place=f"{self.transcript.source}, line {line}",
+                mend="Take the original file; `ana verify` says where it differs.",
+            ) from error
+        self._now = _Moment(end, mission, thoughts)
+
+    def _copy(self, moment: _Moment) -> _Moment:
+        """An independent copy; what never changes is shared."""
+        building = self.building
+        shared = {id(building): building, id(building.plan): building.plan}
+        return moment._replace(mission=deepcopy(moment.mission, shared))

@@ -1,0 +1,325 @@
+"""How a session is led from its first phase to its last, whoever takes part.
+
+The timeline is `protocol`'s; here each phase is played with a `Participant`, which is a set of
+screens or a simulated person. What happened is in the journal before the next thing begins.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Literal, Protocol
+
+from game.coach.spec import CoachSpec
+from game.session.records import (
+    Allocated,
+    Consented,
+    Debriefed,
+    FreeText,
+    Phase,
+    PhaseEnded,
+    PhaseStarted,
+    PracticeChecked,
+    PreferenceGiven,
+    Preflighted,
+    QuizSubmitted,
+)
+from game.study.chance import shuffled
+from game.study.practice import Leg, leg_building, leg_settings, leg_start, legs
+from game.study.protocol import ROUNDS, Point, Step, next_point
+from game.study.session import StudySession
+from game.study.settings import ScreenSize
+from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
+from game.study.texts import LIKERT_POINTS, Consent, Page, filled
+from game.world.building import Building
+from game.world.geometry import Cell, Heading
+
+SLIDER_POINTS = 100
+
+
+class Stopped(Exception):
+    """The participant leaves; the session can be resumed."""
+
+
+class Participant(Protocol):
+    """Who takes part. Every method returns when its task is done; any may raise Stopped."""
+
+    async def check(self, needed: ScreenSize) -> Preflighted:
+        """Have the terminal looked at; returns when it is large enough."""
+        ...
+
+    async def agree(self, page: Consent) -> bool: ...
+
+    async def read(self, page: Page) -> None: ...
+
+    async def look(self, page: Page, building: Building) -> None:
+        """Read a page beside a map with room names, for as long as wanted."""
+        ...
+
+    async def memorise(self, task: Memorising) -> None:
+        """Call `exposure.begin`, then `exposure.tick` until it is over."""
+        ...
+
+    async def label(self, task: Labelling) -> None:
+        """The same, but it may return earlier."""
+        ...
+
+    async def play(self, task: Playing) -> None:
+        """Call `begin`, and play until `done`."""
+        ...
+
+    async def choose(self, page: Page, sheet: Sheet) -> None:
+        """Answer one question by one of its anchors, from 1."""
+        ...
+
+    async def slide(self, page: Page, sheet: Sheet) -> None:
+        """Answer every question by a number between two anchors."""
+        ...
+
+    async def rate(self, page: Page, sheet: Sheet) -> None:
+        """Answer every question by one of its anchors, from 1."""
+        ...
+
+    async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
+        """The round whose instructor is preferred."""
+        ...
+
+    async def explain(self, page: Page) -> str:
+        """Some words, or none."""
+        ...
+
+
+async def conduct(
+    session: StudySession, participant: Participant
+) -> Literal["over", "stopped"]:
+    """Lead the session on from where it is, to its end or until the participant leaves.
+
+    The journal is closed afterwards. Raises JournalError and LedgerError where nothing can be
+    kept; what was recorded until then is.
+    """
+    try:
+        while (point := next_point(session.progress, session.study.settings)).step is not None:
+            await _settle(session, point)
+            await _PHASES[point.step.phase](session, participant, point.step, point.exposure_ms)
+        if not session.progress.over:
+            await session.finish("finished")
+        await participant.read(_closing_page(session))
+    except Stopped:
+        session.stop()
+        return "stopped"
+    finally:
+        await asyncio.to_thread(session.journal.close)
+    return "over"
+
+
+async def _settle(session: StudySession, point: Point) -> None:
+    for step, ending in point.settle:
+        exposure_ms = session.progress.exposure_ms if step == session.progress.begun else 0
+        session.enter(step)
+        await session.save(PhaseEnded(ending, exposure_ms))
+
+
+def _closing_page(session: StudySession) -> Page:
+    texts = session.study.texts
+    if session.progress.declined:
+        return texts.declined
+    return filled(texts.debrief, code=session.completion_code)
+
+
+async def _start(session: StudySession, step: Step, left_ms: int | None, seen_ms: int = 0) -> None:
+    session.enter(step)
+    await session.save(PhaseStarted(left_ms, continued=seen_ms > 0))
+
+
+async def _preflight(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    checked = await who.check(session.study.settings.screen)
+    await session.save(checked, PhaseEnded("completed", 0))
+
+
+async def _consent(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    texts = session.study.texts
+    page = texts.consent
+    if not await who.agree(page):
+        await session.decline(texts.version)
+        return
+    text = f"{page.title}\n\n{page.body.strip()}\n\n{page.agree}"
+    session.record(Consented(texts.version, text, of_age=True), PhaseEnded("completed", 0))
+    await session.keep()
+
+
+async def _practice(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    study, texts = session.study, session.study.texts
+    settings = leg_settings(study.settings.mission)
+    planned = legs(study.practice, session.seed)
+    done = min(session.answers.legs, len(planned))
+    if done == 0:
+        await who.read(texts.practice)
+        await who.read(texts.lessons.walking)
+    stand: tuple[Cell, Heading] | None = None
+    for leg in planned[done:]:
+        await _teach(session, who, leg, again=leg.number == done)
+        start, heading = leg_start(study.practice, planned[: leg.number], stand)
+        building = leg_building(study.practice, leg, start, heading)
+        task = Playing(session, building, leg.spec, settings, f"leg {leg.number}", goals=1)
+        await who.play(task)
+        assert task.run is not None
+        task.leave(task.run.mission.time_ms)
+        stand = task.run.mission.position, task.run.mission.heading
+    right = await _check(session, who)
+    await session.save(
+        PracticeChecked(right=right, asked=len(study.items.check)), PhaseEnded("completed", 0)
+    )
+
+
+async def _teach(session: StudySession, who: Participant, leg: Leg, *, again: bool) -> None:
+    """Explain the kind of instruction of a leg that is the first of it, here or in this segment."""
+    if leg.opens_kind or again:
+        lesson = session.study.texts.lessons.of(leg.level)
+        if lesson.map:
+            await who.look(lesson, session.study.practice)
+        else:
+            await who.read(lesson)
+
+
+async def _check(session: StudySession, who: Participant) -> int:
+    """The check at the end of practice, each answer told right or wrong; returns how many were."""
+    texts, right = session.study.texts, 0
+    for check in session.study.items.check:
+        asked = Asked(check.id, check.text, check.answers, 1, len(check.answers))
+        sheet = Sheet(session, (asked,))
+        if not sheet.complete:
+            await who.choose(texts.check, sheet)
+            told = texts.check_right if sheet.value(asked) == check.right else texts.check_wrong
+            await who.read(filled(told, answer=check.answers[check.right - 1]))
+        right += sheet.value(asked) == check.right
+    return right
+
+
+async def _memorise(session: StudySession, who: Participant, step: Step, seen_ms: int) -> None:
+    session.enter(step)
+    allocated = await _allocated(session)
+    texts, limit_ms = session.study.texts, allocated.memorise_ms
+    left_ms = limit_ms - seen_ms
+    await who.read(filled(texts.memorise, time=texts.units.time(left_ms)))
+    await _start(session, step, left_ms, seen_ms)
+    exposure = Exposure(session, limit_ms, seen_ms)
+    await who.memorise(Memorising(_building(session, step), exposure))
+    await session.save(PhaseEnded("completed", exposure.seen_ms))
+
+
+async def _label(session: StudySession, who: Participant, step: Step, seen_ms: int) -> None:
+    texts, limit_ms = session.study.texts, session.study.settings.label_seconds * 1000
+    left_ms = limit_ms - seen_ms
+    await who.read(filled(texts.label, time=texts.units.time(left_ms)))
+    await _start(session, step, left_ms, seen_ms)
+    exposure = Exposure(session, limit_ms, seen_ms)
+    task = Labelling(session, _building(session, step), exposure)
+    await who.label(task)
+    ending: Literal["timed_out", "completed"] = "timed_out" if exposure.over else "completed"
+    await session.save(
+        QuizSubmitted(right=task.right, asked=len(task.rooms)),
+        PhaseEnded(ending, exposure.seen_ms),
+    )
+
+
+async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    study, texts = session.study, session.study.texts
+    rules = study.settings.mission
+    time = texts.units.time(rules.duration_ms)
+    await who.read(filled(texts.mission, time=time, instructor=texts.instructors.of(step.round)))
+    await _start(session, step, rules.duration_ms)
+    spec = instructor(await _allocated(session), step.round, study.settings.preset)
+    task = Playing(session, _building(session, step), spec, rules, f"round {step.round}")
+    await who.play(task)
+    assert task.run is not None
+    await session.save(PhaseEnded("completed", task.run.mission.time_ms))
+
+
+async def _sliders(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    texts, items = session.study.texts, session.study.items
+    asked = tuple(
+        Asked(slider.id, slider.text, (slider.low, slider.high), 1, SLIDER_POINTS)
+        for slider in shuffled(items.slider, lambda it: it.id, session.seed, "sliders", step.round)
+    )
+    page = filled(texts.mental_state, instructor=texts.instructors.of(step.round))
+    await who.slide(page, Sheet(session, asked))
+    await session.save(PhaseEnded("completed", 0))
+
+
+async def _likert(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    texts, items = session.study.texts, session.study.items
+    order = shuffled(items.statement, lambda it: it.id, session.seed, "statements", step.round)
+    asked = tuple(Asked(it.id, it.text, items.scale.answers, 1, LIKERT_POINTS) for it in order)
+    page = filled(texts.likert, instructor=texts.instructors.of(step.round))
+    await who.rate(page, Sheet(session, asked))
+    await session.save(PhaseEnded("completed", 0))
+
+
+async def _preference(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    await _start(session, step, None)
+    texts = session.study.texts
+    options = texts.instructors.first, texts.instructors.second
+    if session.answers.preference is None:
+        page, shown_ms = texts.preference, session.now_ms()
+        preferred = await who.prefer(page, options)
+        await session.save(
+            PreferenceGiven(
+                item="preferred_instructor",
+                text=page.body.strip(),
+                options=options,
+                preferred_round=preferred,
+                response_ms=session.now_ms() - shown_ms,
+            )
+        )
+    page, shown_ms = texts.reason, session.now_ms()
+    answer = await who.explain(page)
+    await session.save(
+        FreeText("reason", page.body.strip(), answer, session.now_ms() - shown_ms),
+        PhaseEnded("completed", 0),
+    )
+
+
+async def _debrief(session: StudySession, _who: Participant, step: Step, _seen_ms: int) -> None:
+    """The last page is shown when all that it says is true."""
+    await _start(session, step, None)
+    await session.save(Debriefed(session.completion_code), PhaseEnded("completed", 0))
+
+
+_PHASES: dict[Phase, Callable[[StudySession, Participant, Step, int], Awaitable[None]]] = {
+    "preflight": _preflight,
+    "consent": _consent,
+    "practice": _practice,
+    "memorise": _memorise,
+    "label": _label,
+    "mission": _mission,
+    "sliders": _sliders,
+    "likert": _likert,
+    "preference": _preference,
+    "debrief": _debrief,
+}
+
+
+def instructor(allocated: Allocated, round_: int, preset: str) -> CoachSpec:
+    """Who coaches a round."""
+    if allocated.adaptive_first is (round_ == ROUNDS[0]):
+        return CoachSpec("ana", preset=preset)
+    return CoachSpec("static", level=allocated.static_level)
+
+
+async def _allocated(session: StudySession) -> Allocated:
+    if session.progress.allocated is None:
+        await session.allocate()
+    allocated = session.progress.allocated
+    assert allocated is not None
+    return allocated
+
+
+def _building(session: StudySession, step: Step) -> Building:
+    allocated = session.progress.allocated
+    assert allocated is not None
+    return session.study.building(allocated.buildings[step.round - 1])

@@ -1,0 +1,180 @@
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from game.coach.compliance import (
+    HEEDED_CELLS,
+    MISSTEP_EXCESS,
+    NOTHING_ASKED,
+    READING_MS,
+    Compliance,
+    fits,
+    reached,
+    track,
+)
+from game.coach.instructions import Instruction, Pose, Scene, instruct
+from game.coach.records import Level
+from game.world import load_building
+from game.world.building import Severity
+from game.world.floodfill import Floodfills
+from game.world.geometry import Cell, Heading
+from game.world.settings import MissionSettings
+
+BUILDING = load_building("practice")
+FLOODFILLS = Floodfills(BUILDING.plan)
+SITES = {site.id: site for site in BUILDING.victims}
+SCENE = Scene(BUILDING, FLOODFILLS, SITES, MissionSettings())
+START = Pose(BUILDING.start, BUILDING.start_heading)
+
+
+def walk(level: Level, distances: list[int]) -> list[Compliance]:
+    """The states after each of the distances; the first is where the instruction is issued."""
+    states = [NOTHING_ASKED.issued(level, distances[0])]
+    for distance in distances[1:]:
+        states.append(states[-1].acted(distance))
+    return states
+
+
+def straight(
+    path: list[Cell], start: Heading, end: Heading, *, treats: bool = False
+) -> Instruction:
+    return Instruction(
+        level=Level.C1,
+        shown_level=Level.C1,
+        goal="v01",
+        tuples=(),
+        text="",
+        start=Pose(path[0], start),
+        end=Pose(path[-1], end),
+        path=tuple(path),
+        treats=treats,
+        accepts=frozenset({"v01"}),
+    )
+
+
+@pytest.mark.parametrize(("level", "excess"), [(Level.C1, 1), (Level.C2, 3), (Level.C3, 8)])
+def test_a_misstep_is_a_rise_above_the_minimum_by_what_the_level_allows(
+    level: Level, excess: int
+) -> None:
+    down, up = [20, 19, 18], [18 + rise for rise in range(1, excess + 1)]
+    *before, last = walk(level, down + up)
+    assert last.misstep
+    assert last.excess == excess == MISSTEP_EXCESS[level]
+    assert not any(state.misstep for state in before)
+
+
+@given(st.sampled_from(Level), st.lists(st.sampled_from([-1, 0, 1]), max_size=60))
+def test_only_an_action_that_leads_away_is_a_misstep(level: Level, steps: list[int]) -> None:
+    distances = [30]
+    for step in steps:
+        distances.append(distances[-1] + step)
+    for before, after, state in zip(
+        distances, distances[1:], walk(level, distances)[1:], strict=False
+    ):
+        assert not state.misstep or after > before
+        assert state.excess >= 0
+
+
+def test_walking_on_the_right_way_is_never_a_misstep() -> None:
+    for level in Level:
+        assert not any(state.misstep for state in walk(level, list(range(40, 0, -1))))
+
+
+def test_a_second_misstep_is_disobedience_unless_something_was_completed_between() -> None:
+    first = walk(Level.C1, [5, 6])[-1]
+    assert first.misstep
+    assert not first.disobeys(1_000)
+    again = first.corrected(1_000).issued(Level.C1, 6)
+    assert again.acted(7).disobeys(9_000)
+    assert not again.completed().issued(Level.C1, 6).acted(7).disobeys(9_000)
+
+
+def test_a_misstep_before_the_correction_can_be_read_belongs_to_the_one_before() -> None:
+    state, disobeyed = NOTHING_ASKED.issued(Level.C1, 5), 0
+    for cell in range(30):
+        state, at_ms = state.acted(6 + cell), 200 * cell
+        disobeyed += state.disobeys(at_ms)
+        state = state.corrected(at_ms).issued(Level.C1, 6 + cell)
+    assert disobeyed == 29 * 200 // READING_MS
+
+
+def test_at_c3_no_misstep_is_disobedience_nor_leads_to_it() -> None:
+    astray = NOTHING_ASKED.issued(Level.C3, 5).acted(13)
+    assert astray.misstep
+    assert not astray.corrected(0).issued(Level.C2, 13).acted(16).disobeys(9_000)
+    strict = NOTHING_ASKED.issued(Level.C2, 5).acted(8).corrected(0)
+    assert not strict.issued(Level.C3, 8).acted(16).disobeys(9_000)
+    assert strict.issued(Level.C1, 8).acted(9).disobeys(9_000)
+
+
+def test_a_correction_is_heeded_after_some_cells_the_right_way() -> None:
+    states = walk(Level.C2, list(range(20, 10, -1)))
+    assert [state.heeded for state in states] == [n >= HEEDED_CELLS for n in range(10)]
+
+
+def test_the_track_has_the_poses_that_carrying_out_passes_and_no_others() -> None:
+    path: list[Cell] = [(4, 4), (5, 4), (5, 5)]
+    turning = straight(path, Heading.WEST, Heading.SOUTH)
+    walked = {
+        Pose((4, 4), Heading.WEST),
+        Pose((4, 4), Heading.EAST),
+        Pose((5, 4), Heading.EAST),
+        Pose((5, 4), Heading.SOUTH),
+        Pose((5, 5), Heading.SOUTH),
+    }
+    assert track(turning, "compass") == walked
+    between = {Pose((4, 4), Heading.NORTH), Pose((4, 4), Heading.SOUTH)}
+    assert track(turning, "turn") == walked | between
+
+
+@pytest.mark.parametrize("level", [Level.C1, Level.C2])
+@pytest.mark.parametrize("goal", sorted(SITES))
+def test_whoever_walks_the_path_is_on_the_track(level: Level, goal: str) -> None:
+    instruction = instruct(SCENE, START, goal, level)
+    poses = track(instruction, "compass")
+    assert {START, instruction.end} <= poses
+    assert {pose.cell for pose in poses} == set(instruction.path)
+
+
+def test_an_instruction_is_reached_at_its_end_cell_however_one_faces() -> None:
+    instruction = straight([(4, 4), (5, 4)], Heading.EAST, Heading.EAST)
+    assert reached(instruction, Pose((5, 4), Heading.NORTH))
+    assert not reached(instruction, Pose((4, 4), Heading.EAST))
+    treating = straight([(4, 4), (5, 4)], Heading.EAST, Heading.EAST, treats=True)
+    assert not reached(treating, Pose((5, 4), Heading.EAST))
+
+
+def test_an_instruction_that_only_turns_is_reached_with_the_turn() -> None:
+    turning = straight([(4, 4)], Heading.EAST, Heading.SOUTH)
+    assert not reached(turning, Pose((4, 4), Heading.EAST))
+    assert reached(turning, Pose((4, 4), Heading.SOUTH))
+
+
+def test_the_words_decide_who_may_be_treated_instead() -> None:
+    harbour = load_building("harbour")
+    sites = {site.id: site for site in harbour.victims}
+    scene = Scene(harbour, Floodfills(harbour.plan), sites, MissionSettings())
+    goal = next(site for site in harbour.victims if site.severity is Severity.BLUE)
+    alike = next(s for s in harbour.victims if s.severity is Severity.BLUE and s is not goal)
+    other = next(site for site in harbour.victims if site.severity is Severity.RED)
+    beside = Pose(
+        next(h.from_cell(goal.cell) for h in Heading if _floor(scene, h.from_cell(goal.cell))),
+        Heading.NORTH,
+    )
+    for level in Level:
+        instruction = instruct(scene, beside, goal.id, level)
+        assert fits(scene, instruction, goal.id, ())
+        assert not fits(scene, instruction, other.id, [goal.cell, other.cell])
+    named = instruct(scene, beside, goal.id, Level.C2)
+    assert named.treats
+    assert fits(scene, named, alike.id, [goal.cell])
+    word_by_word = instruct(scene, beside, goal.id, Level.C1)
+    assert not fits(scene, word_by_word, alike.id, [goal.cell])
+    afar = instruct(scene, Pose(harbour.start, harbour.start_heading), goal.id, Level.C2)
+    assert afar.treats or not fits(scene, afar, alike.id, [goal.cell])
+
+
+def _floor(scene: Scene, cell: Cell) -> bool:
+    return scene.building.plan.walkable(cell)
