@@ -1,0 +1,234 @@
+"""The whole battery on one source: every number of the paper and of a reviewer's questions."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from analysis.absent import Absent, Plain, Row, Tree, attempt, plain
+from analysis.anova import EFFECTS, Effect, mixed_anova
+from analysis.assumptions import assumption_rows, hc3_rows
+from analysis.cellmodel import contrast_row, weights_of
+from analysis.clustering import Clustering
+from analysis.corrections import PValue, holm_by_name
+from analysis.equivalence import paired_row
+from analysis.exclusions import Rules, left_by, load_rules
+from analysis.figures import write_figures
+from analysis.groups import grouped
+from analysis.mixed import mixed_model
+from analysis.order_effects import order_rows
+from analysis.ordinal import ordinal_rows
+from analysis.posthoc import (
+    RoundModels,
+    adaptivity_marginal,
+    cell_rows,
+    complexity_within_knowledge_avg,
+    complexity_within_knowledge_by_round,
+    difference_all_pairs,
+    difference_knowledge_within_complexity,
+    marginal_means,
+    simple_adaptivity_within_cell,
+)
+from analysis.power import EVEN, power_rows
+from analysis.preferred import preferred_rows
+from analysis.reliability import alpha_rows
+from analysis.report import summary
+from analysis.sensitivity import continuous_rows, exclusion_rows
+from analysis.sources import load_study
+from analysis.tables import Paired, Study, both_rounds, paired
+from analysis.vocabulary import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+
+#: Parts of an outcome that need the analysis cells.
+BY_CELL: Mapping[str, Callable[[RoundModels], Tree]] = {
+    "cells": cell_rows,
+    "emm": marginal_means,
+    "posthoc_complexity_within_knowledge_by_round": complexity_within_knowledge_by_round,
+    "posthoc_complexity_within_knowledge_avg": complexity_within_knowledge_avg,
+    "simple_adaptivity_within_cell": simple_adaptivity_within_cell,
+    "posthoc_diff_knowledge_within_complexity": difference_knowledge_within_complexity,
+    "posthoc_diff_all36": difference_all_pairs,
+    "adaptivity_marginal": adaptivity_marginal,
+}
+
+
+@dataclass(frozen=True)
+class BatteryResult:
+    """Everything the battery found about one source.
+
+    `study` is the analysed sample with its groups; `results` the numbers, JSON-ready; `problems`
+    what stopped a planned analysis, each naming the place; `notes` what a reader must know.
+    """
+
+    study: Study
+    results: dict[str, Plain]
+    anovas: Mapping[str, list[Effect] | Absent]
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def exit_status(self) -> int:
+        """0, or 2 where a planned analysis was stopped."""
+        return 2 if self.problems else 0
+
+    def table(self) -> str:
+        """The results a reader looks at first, as text for a terminal."""
+        return summary(self.study, self.results, self.problems, self.notes)
+
+    def to_json(self) -> str:
+        """The results as JSON text; each null's reason stands under `absent`."""
+        return json.dumps(self.results, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def run_battery(randomised: Study, rules: Rules) -> BatteryResult:
+    """Run everything on the sample that the primary exclusion rule leaves of all randomised."""
+    sample = left_by(randomised, rules.main())
+    study, clustering = grouped(sample.study)
+    notes = list(study.notes)
+    if not study.has(rules.main().column):
+        notes.append(
+            f"the source has no column {rules.main().column}: it is taken as the analysed sample"
+        )
+    pairs = {outcome: attempt(paired, study, outcome) for outcome in OUTCOMES}
+    anovas = {
+        outcome: pair if isinstance(pair, Absent) else attempt(mixed_anova, pair)
+        for outcome, pair in pairs.items()
+    }
+    tree: Row = {
+        "source": {
+            "label": study.label,
+            "simulated": study.simulated,
+            "n_randomised": len(randomised.participants),
+            "n_analysed": len(study.participants),
+            "exclusion_rule": rules.primary,
+            "groups": "stated" if sample.study.has("knowledge") else "formed from quiz_static",
+        },
+        "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
+        "alpha": alpha_rows(study),
+        "outcomes": {
+            outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome])
+            for outcome in OUTCOMES
+        },
+        "holm_across_mental_states": holm_across({state: anovas[state] for state in MENTAL_STATES}),
+        "preferred_instructor": attempt(preferred_rows, study),
+        "ordinal": ordinal_rows(study),
+        "order_and_building": order_rows(study),
+        "sensitivity": {
+            "exclusions": exclusion_rows(randomised, rules),
+            "continuous_score": {
+                outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
+            },
+        },
+        "power": power_rows(_shares(study)),
+    }
+    problems = tuple(_problems(study, clustering, anovas))
+    values, reasons = plain(tree)
+    if not isinstance(values, dict):
+        raise TypeError("the results are not a mapping")
+    results = values | {
+        "problems": list(problems),
+        "notes": list(notes),
+        "absent": _by_reason(reasons),
+    }
+    return BatteryResult(study, results, anovas, problems, tuple(notes))
+
+
+def outcome_rows(
+    study: Study, outcome: str, pair: Paired | Absent, anova: list[Effect] | Absent
+) -> Row:
+    """All parts of one outcome; a part that cannot be had is absent with its reason."""
+    rows: Row = {
+        "anova": anova if isinstance(anova, Absent) else [effect.row() for effect in anova]
+    }
+    people = both_rounds(study, outcome)
+    if isinstance(pair, Absent):
+        rows |= {"n": len(people), "n_dropped": len(study.participants) - len(people)}
+        rows |= dict.fromkeys((*BY_CELL, "alignment", "assumptions", "hc3_diff"), pair)
+    else:
+        models = RoundModels.of(pair)
+        rows |= {"n": len(pair.participants), "n_dropped": pair.n_dropped}
+        rows |= {name: make(models) for name, make in BY_CELL.items()}
+        rows |= {
+            "alignment": alignment_rows(models),
+            "assumptions": assumption_rows(pair),
+            "hc3_diff": attempt(hc3_rows, pair),
+        }
+    return rows | {
+        "paired": attempt(paired_row, people),
+        "lmm": attempt(mixed_model, study, outcome),
+    }
+
+
+def alignment_rows(models: RoundModels) -> list[Row]:
+    """Aligned (LOW-C1, MED-C2, HIGH-C3) less the other six cells, in each round and between."""
+    others = [
+        (group, level)
+        for group in KNOWLEDGE
+        for level in COMPLEXITY
+        if (group, level) not in ALIGNED
+    ]
+    weights = weights_of(ALIGNED) - weights_of(others)
+    rows: list[Row] = []
+    for name, model in (*models.by_round(), ("adaptive - static", models.difference)):
+        contrast = model.contrast(weights)
+        rows.append(
+            {
+                "contrast": "aligned - misaligned",
+                "of": name,
+                **contrast_row(contrast),
+                "p.value": contrast.p,
+            }
+        )
+    return rows
+
+
+def holm_across(anovas: Mapping[str, list[Effect] | Absent]) -> dict[str, dict[str, PValue]]:
+    """Holm over the outcomes, effect by effect; an outcome without ANOVA does not count."""
+    by_effect: dict[str, dict[str, PValue]] = {}
+    for index, effect in enumerate(EFFECTS):
+        family: dict[str, PValue] = {
+            state: rows if isinstance(rows, Absent) else rows[index].test.p
+            for state, rows in anovas.items()
+        }
+        by_effect[effect] = holm_by_name(family)
+    return by_effect
+
+
+def analyse_source(
+    source: Path, quiz: Path | None = None, figures: Path | None = None
+) -> BatteryResult:
+    """Read a source, run the battery, and write the figures if a folder is given.
+
+    Raises SourceError where the source cannot be read.
+    """
+    result = run_battery(load_study(source, quiz), load_rules())
+    if figures is not None:
+        write_figures(result.study, figures)
+    return result
+
+
+def _shares(study: Study) -> tuple[float, ...]:
+    if not study.has("knowledge"):
+        return EVEN
+    sizes = study.participants["knowledge"].value_counts().reindex(list(KNOWLEDGE)).fillna(0)
+    return tuple(float(share) for share in sizes / sizes.sum())
+
+
+def _problems(
+    study: Study, clustering: Clustering | Absent, anovas: Mapping[str, list[Effect] | Absent]
+) -> list[str]:
+    problems = []
+    if isinstance(clustering, Absent) and study.has("quiz_static"):
+        problems.append(f"knowledge groups: {clustering.reason}")
+    problems += [
+        f"{outcome}: the ANOVA is left out: {anova.reason}"
+        for outcome, anova in anovas.items()
+        if isinstance(anova, Absent)
+    ]
+    return problems
+
+
+def _by_reason(reasons: Mapping[str, str]) -> list[Plain]:
+    paths: dict[str, list[Plain]] = {}
+    for path, reason in reasons.items():
+        paths.setdefault(reason, []).append(path)
+    return [{"reason": reason, "paths": found} for reason, found in paths.items()]

@@ -1,0 +1,35 @@
+"""`ana analyse`: every statistic of the paper, and of a reviewer's questions, for one source."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from analysis.battery import analyse_source
+from game.errors import AnaError
+
+_PATH = click.Path(path_type=Path)
+
+
+@click.command(name="analyse")
+@click.argument("source", type=_PATH)
+@click.option("--json", "out", required=True, type=_PATH, metavar="OUT.json", help="Where to.")
+@click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
+@click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
+def command(source: Path, out: Path, figures: Path | None, quiz: Path | None) -> int:
+    """Analyse SOURCE, a study folder or one long CSV file, and write all numbers to OUT.json.
+
+    Exit status 2 where a planned analysis could not be made; all others are written all the same.
+    """
+    result = analyse_source(source, quiz, figures)
+    try:
+        out.write_text(result.to_json(), encoding="utf-8")
+    except OSError as error:
+        raise AnaError(
+            f"the results cannot be written ({error.strerror})",
+            place=str(out),
+            mend="Give a file in a folder that exists and that you may write to.",
+        ) from error
+    click.echo(result.table())
+    return result.exit_status

@@ -1,0 +1,101 @@
+"""The battery's results as text for a terminal."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from analysis.absent import Plain
+from analysis.tables import Study
+
+#: Comparisons are listed below this Holm-adjusted p.
+SIGNIFICANT = 0.05
+
+
+def summary(
+    study: Study, results: Mapping[str, Plain], problems: Sequence[str], notes: Sequence[str]
+) -> str:
+    """Sample, groups, alpha, the ANOVAs and the significant comparisons, then problems and notes.
+
+    `results` are the battery's JSON-ready results.
+    """
+    numbers: Mapping[str, Any] = results
+    source = numbers["source"]
+    lines = [
+        f"{study.label}: {source['n_analysed']} analysed of {source['n_randomised']} participants"
+        + (" - SIMULATED PEOPLE" if study.simulated else ""),
+        f"knowledge groups: {source['groups']}{_sizes(numbers['clustering'])}",
+        f"Cronbach's alpha of the four preference items: {_number(_alpha(numbers))}",
+        "",
+    ]
+    for outcome, rows in numbers["outcomes"].items():
+        lines += [*_outcome(outcome, rows, numbers["holm_across_mental_states"]), ""]
+    lines += [f"problem: {problem}" for problem in problems]
+    lines += [f"note: {note}" for note in notes]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _sizes(clustering: Mapping[str, Any] | None) -> str:
+    if clustering is None:
+        return ""
+    low, high = clustering["boundaries"]
+    sizes = ", ".join(f"{group} {size}" for group, size in clustering["sizes"].items())
+    return f"; by the scores {sizes}, cut at {low:g} and {high:g}"
+
+
+def _alpha(numbers: Mapping[str, Any]) -> float | None:
+    value: float | None = numbers["alpha"]["all"]["listwise"]
+    return value
+
+
+def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> list[str]:
+    lines = [f"{outcome}  (n = {rows['n']}, {rows['n_dropped']} without both rounds or a group)"]
+    if rows["anova"] is None:
+        lines.append("  no ANOVA; see the problems below")
+    else:
+        lines.append(
+            f"  {'effect':<33}{'df':>6}{'F':>9}{'p':>7}{'p Holm':>8}{'eta_p':>7}{'eta_g':>7}"
+        )
+        lines += [_anova_line(outcome, row, holm) for row in rows["anova"][1:]]
+    lines += _comparisons(rows)
+    if rows["paired"] is not None:
+        paired = rows["paired"]
+        lines.append(
+            f"  adaptive - static: {paired['mean_diff']:+.2f} (d_z {paired['dz']:+.2f}), TOST p "
+            f"{_p(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
+        )
+    return lines
+
+
+def _anova_line(outcome: str, row: Mapping[str, Any], holm: Mapping[str, Any]) -> str:
+    df = f"{row['df1']}, {row['df2']}"
+    corrected = _p(holm[row["effect"]][outcome]) if outcome in holm[row["effect"]] else ""
+    return (
+        f"  {row['effect']:<32}{df:>7}{row['F']:>9.3f}{_p(row['p']):>7}{corrected:>8}"
+        f"{_p(row['pes']):>7}{_p(row['ges_obs_knowledge']):>7}"
+    )
+
+
+def _comparisons(rows: Mapping[str, Any]) -> list[str]:
+    """Comparisons of the paper's Figs. 7 and 9 that stay below .05 after Holm."""
+    within = [
+        (f"{row['knowledge']}, {row['adaptivity']}", row)
+        for row in rows["posthoc_complexity_within_knowledge_by_round"] or ()
+    ]
+    between = [
+        (f"adaptive - static at {row['complexity']}", row)
+        for row in rows["posthoc_diff_knowledge_within_complexity"] or ()
+    ]
+    return [
+        f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {_p(row['p_holm'])}"
+        for where, row in (*within, *between)
+        if row["p_holm"] is not None and row["p_holm"] < SIGNIFICANT
+    ]
+
+
+def _p(value: float | None) -> str:
+    if value is None:
+        return "-"
+    return "<.001" if value < 0.001 else f"{value:.3f}".replace("0.", ".", 1)
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3g}"
