@@ -40,7 +40,7 @@ def _mission_options(command: _Command) -> _Command:
             "--coach",
             default="ana",
             show_default=True,
-            help="ana adapts its level; static does not.",
+            help="ana adapts its level; static does not; FILE.py:CLASS is your own.",
         ),
         click.option("--preset", help=f"How ana adapts: {', '.join(PRESETS)}."),
         click.option("--level", type=int, help="The level of a static coach: 1, 2 or 3."),

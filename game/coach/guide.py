@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Generic, Literal, TypeVar
 
 from game.coach.api import Briefing
-from game.coach.belief import belief_change
+from game.coach.belief import Belief, belief_change
 from game.coach.compliance import NOTHING_ASKED, fits, reached, track
 from game.coach.cycle import AdaptiveCycle, InfluenceProcess, LearningProcess
 from game.coach.instructions import Instruction, Pose, Scene, correction, instruct
@@ -45,7 +45,7 @@ from game.world.plan import Plan
 ALL_SAFE = "All victims are safe."
 NOBODY_IN_TIME = "No victim can be reached in time."
 
-STRAY_GAIN_MOVES = 10
+STRAY_GAIN_MOVES = 5
 """After a misstep another goal is set only if it saves somebody more, or so many moves."""
 
 State = TypeVar("State")
@@ -134,15 +134,13 @@ class Guide(ABC, Generic[State]):
     def begin(self, observation: Observation) -> list[CoachRecord]:
         before = self._cycle.model.belief.state
         self._cycle.begin(observation)
-        change = belief_change(before, self._cycle.model.belief.state, 0)
         pose = Pose(observation.position, observation.heading)
-        return [*([change] if change else []), *self._set_goal(0, pose, "start")]
+        return [*self._belief_since(before, 0), *self._set_goal(0, pose, "start")]
 
     def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         before = self._cycle.model.belief.state
         self._cycle.observe(event, observation)
-        change = belief_change(before, self._cycle.model.belief.state, event.at_ms)
-        records: list[CoachRecord] = [change] if change else []
+        records = self._belief_since(before, event.at_ms)
         pose = Pose(observation.position, observation.heading)
         match event:
             case Acted():
@@ -162,6 +160,10 @@ class Guide(ABC, Generic[State]):
             return []
         pose = Pose(observation.position, observation.heading)
         return [*self._adapt("every", at_ms), *self._follow_level(at_ms, pose)]
+
+    def _belief_since(self, before: Belief, at_ms: int) -> list[CoachRecord]:
+        change = belief_change(before, self._cycle.model.belief.state, at_ms)
+        return [] if change is None else [change]
 
     # --- what happened ---------------------------------------------------------------------------
 
@@ -273,7 +275,6 @@ class Guide(ABC, Generic[State]):
         self, at_ms: int, pose: Pose, reason: _GoalReason, route: Sequence[str] | None = None
     ) -> list[CoachRecord]:
         self._meant = None
-        self._treated_instead.clear()
         self._route = tuple(route or self._planned(at_ms, pose.cell))
         if not self._route:
             self._instruction = None

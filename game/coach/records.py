@@ -43,7 +43,7 @@ class NothingLeft(CoachAct, frozen=True, tag="nothing_left"):
     notice: str
 
 
-class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued"):
+class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued", kw_only=True):
     """A new text on the bar.
 
     `level` is the level in force, `shown_level` that of the words: lower where `fallback` is true
@@ -55,15 +55,15 @@ class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued"):
     goal: str
     level: Level
     shown_level: Level
-    fallback: bool
-    tuples: tuple[tuple[str, str], ...]
+    fallback: bool = False
+    tuples: tuple[tuple[str, str], ...] = ()
     text: str
-    notice: str
+    notice: str = ""
     position: Cell
     heading: Heading
     end: Cell
-    treats: bool
-    reason: Literal["goal", "completed", "level", "off_path", "misstep", "resumed"]
+    treats: bool = False
+    reason: Literal["goal", "completed", "level", "off_path", "misstep", "resumed"] = "goal"
 
 
 class InstructionCompleted(CoachAct, frozen=True, tag="instruction_completed"):

@@ -9,18 +9,20 @@ import msgspec
 
 from game.coach.api import Briefing, Coach
 from game.coach.coaches import AdaptiveCoach, PaceCoach, StaticCoach
+from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
 from game.coach.records import Level
 from game.errors import AnaError
 
-CoachKind = Literal["static", "ana", "pace"]
+CoachKind = Literal["static", "ana", "pace", "own"]
 
 DEFAULT_LEVEL = Level.C2
 DEFAULT_PRESET = "calibrated"
 
 
 class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A coach: `ana` adapts its level as the preset says; `static` and `pace` keep theirs.
+    """A coach: `ana` adapts its level as the preset says; `static` and `pace` keep theirs; `own`
+    is the class in `source` (`FILE.py:CLASS`), whose file has the SHA-256 `sha256`.
 
     Raises ValueError, naming the field, where one is missing, unknown or of no use to the kind.
     """
@@ -28,9 +30,19 @@ class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     kind: CoachKind
     level: Level | None = None
     preset: str | None = None
+    source: str | None = None
+    sha256: str | None = None
 
     def __post_init__(self) -> None:
-        if self.kind == "ana":
+        own = self.kind == "own"
+        if (self.source is not None, self.sha256 is not None) != (own, own):
+            raise ValueError("coach fields source and sha256 go with the kind own, and only there")
+        if own:
+            if self.level is not None or self.preset is not None:
+                raise ValueError(
+                    "coach fields level and preset mean nothing to a coach of one's own"
+                )
+        elif self.kind == "ana":
             if self.level is not None:
                 raise ValueError("coach field level: ana finds its own; give a preset instead")
             if self.preset not in PRESETS:
@@ -46,9 +58,11 @@ def parse_coach(kind: str, level: int | None = None, preset: str | None = None) 
     """The coach that these names mean, with the usual level or preset where none is given.
 
     Raises AnaError, with the nearest right name, for a name that is none, and for a level or a
-    preset that the coach does not have.
+    preset that the coach does not have. `FILE.py:CLASS` means a coach of one's own.
     """
-    kinds = {name: name for name in get_args(CoachKind)}
+    if SEPARATOR in kind:
+        return CoachSpec("own", source=kind, sha256=source_hash(kind))
+    kinds = {name: name for name in get_args(CoachKind) if name != "own"}
     if kind not in kinds:
         raise _unknown("coach", kind, tuple(kinds))
     if kind == "ana":
@@ -69,7 +83,12 @@ def parse_coach(kind: str, level: int | None = None, preset: str | None = None) 
 
 
 def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
-    """A new coach for one mission, which knows the briefing and nothing else."""
+    """A new coach for one mission, which knows the briefing and nothing else.
+
+    Raises AnaError where a coach of one's own cannot be loaded.
+    """
+    if spec.source is not None and spec.sha256 is not None:
+        return own_coach(spec.source, spec.sha256, briefing)
     if spec.preset is not None:
         return AdaptiveCoach(briefing, preset(spec.preset))
     assert spec.level is not None

@@ -2,31 +2,50 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
 
 from game.session.run import MissionRun
 from game.world.events import Action
 from game.world.observation import Observation
 
 
+class Wait(NamedTuple):
+    """Do nothing until `until_ms` of the mission's time, or until something happens before."""
+
+    until_ms: int
+
+
 class Rescuer(Protocol):
     """Whoever decides from an Observation, as a person does at the screen."""
 
-    def decide(self, observation: Observation) -> Action | None:
-        """The next action, or None to wait until something happens."""
+    def decide(self, observation: Observation) -> Action | Wait | None:
+        """The next action, or how long to wait; None to wait until something happens."""
         ...
 
 
-def play(run: MissionRun, rescuer: Rescuer) -> None:
-    """Play a run that has begun, and stands at 0 ms, to its end: one action a pace, waiting where
-    the rescuer waits."""
+def drive(
+    run: MissionRun,
+    rescuer: Rescuer,
+    *,
+    passing: Callable[[int], None] = lambda _now_ms: None,
+    done: Callable[[], bool] = lambda: False,
+) -> None:
+    """Play a run that has begun until it ends or is `done`.
+
+    The rescuer acts once a pace at most, and waits where it wants to. `passing` is told each new
+    time before anything happens at it, for whoever keeps a clock.
+    """
     pace_ms = run.mission.settings.pace_ms
-    now_ms = 0
-    while (due_ms := run.next_due_ms) is not None:
-        action = rescuer.decide(run.observation())
-        if action is None:
+    now_ms = run.mission.time_ms
+    while (due_ms := run.next_due_ms) is not None and not done():
+        decided = rescuer.decide(run.observation())
+        if isinstance(decided, Action):
+            run.press(decided, now_ms)
+            now_ms += pace_ms
+        elif decided is None:
             now_ms = due_ms
         else:
-            run.press(action, now_ms)
-            now_ms += pace_ms
+            now_ms = min(due_ms, max(decided.until_ms, now_ms + 1))
+        passing(now_ms)
         run.advance(now_ms)

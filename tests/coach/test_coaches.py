@@ -30,7 +30,7 @@ from game.coach.records import (
 )
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.errors import AnaError
-from game.rescuers.driver import play
+from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.session.run import MissionRun, RunRecord
 from game.world import load_building
@@ -59,6 +59,22 @@ A = room Archive
 B = room Bureau
 """)
 """Two blue victims share the Archive; a red one lies in the Bureau."""
+
+GALLERY = parse_building("""name: Gallery
+
+plan:
+#########################
+#>.........B...........o#
+####+####################
+####.A.##################
+#########################
+
+legend:
+> = start facing east
+o = blue victim
+A = room Annex
+B = room Gallery
+""")
 
 PRACTICE = load_building("practice")
 
@@ -172,6 +188,23 @@ def test_a_bump_that_turns_the_rescuer_gets_words_for_the_new_heading() -> None:
     assert not only(Misstep, game.records)
 
 
+def test_words_at_c2_are_for_a_heading_until_the_victim_is_found() -> None:
+    game = Game(STATIC[1], GALLERY)
+    first = only(InstructionIssued, game.records)[0]
+    assert (first.shown_level, first.treats) == (Level.C2, True)
+    assert [record.reason for record in only(InstructionIssued, game.act(N))] == ["off_path"]
+    game.act(*[E] * 19)
+    assert not only(InstructionIssued, game.act(N, S))
+
+
+def test_the_next_words_know_who_is_rescued() -> None:
+    game = Game(STATIC[0])
+    settle(game, E, N, N)
+    assert game.coach.guidance.text == "Stop. Utilize medical equipment."
+    settle(game)
+    assert game.mission.rescued == 2
+
+
 # --- missteps and disobedience -------------------------------------------------------------------
 
 
@@ -184,6 +217,29 @@ def test_a_misstep_is_corrected_from_where_the_rescuer_stands() -> None:
     assert game.coach.guidance.notice == WRONG_WAY
     assert issued.text.startswith("Turn around. Walk forward 2 steps.")
     assert not only(Disobeyed, happened)
+
+
+def test_a_few_steps_astray_at_c2_are_left_alone() -> None:
+    game = Game(STATIC[1], PRACTICE)
+    assert not only(InstructionIssued, game.act(_away(game)))
+
+
+def test_a_misstep_always_has_a_correction() -> None:
+    game = Game(STATIC[2], GALLERY)
+    happened = game.act(*[E] * 9, *[W] * 8)
+    assert only(Misstep, happened)[0].excess == 8
+    assert [record.notice for record in only(InstructionIssued, happened)] == [WRONG_WAY]
+
+
+def test_whoever_strays_to_another_victim_is_led_there() -> None:
+    game = Game(STATIC[2])
+    assert only(GoalSet, game.records)[0].goal == "v02"
+    happened = game.act(*[E] * 6, N, N, *[E] * 2)
+    assert only(Misstep, happened)
+    assert [(record.goal, record.reason) for record in only(GoalSet, happened)] == [
+        ("v03", "strayed")
+    ]
+    assert only(InstructionIssued, happened)[-1].goal == "v03"
 
 
 def test_a_correction_leaves_the_bar_once_it_is_heeded() -> None:
@@ -199,6 +255,27 @@ def test_a_misstep_again_long_after_the_correction_is_disobedience() -> None:
     game.act(W)
     game.wait(5_000)
     assert [record.kind for record in only(Disobeyed, game.act(E, E, E))] == ["repeat_misstep"]
+
+
+def test_an_instruction_completed_between_two_missteps_forgives_the_first() -> None:
+    game, reader = Game(STATIC[0], PRACTICE), LiteralReader("compass")
+    game.act(_away(game))
+    game.wait(5_000)
+    while not only(InstructionCompleted, game.records):
+        action = reader.decide(game.run.observation())
+        assert action is not None
+        game.act(action)
+    game.wait(7_000)
+    game.act(_away(game))
+    assert len(only(Misstep, game.records)) == 2
+    assert not only(Disobeyed, game.records)
+
+
+def test_a_victim_treated_instead_counts_once() -> None:
+    game = Game(STATIC[0], settings=MissionSettings(red_expiry_ms=12_000))
+    happened = game.act(E, N, N, T, S, N, T)
+    assert len(only(TreatmentStarted, happened)) == 2
+    assert [r.kind for r in only(Disobeyed, happened)].count("other_victim") == 1
 
 
 def test_treating_another_victim_is_disobedience_and_the_route_is_planned_anew() -> None:
@@ -259,6 +336,21 @@ def test_a_goal_that_expires_is_followed_by_another() -> None:
     assert [record.reason for record in only(GoalSet, happened)] == ["expired"]
 
 
+def test_a_goal_that_expires_during_another_treatment_gives_way_to_it() -> None:
+    game = Game(STATIC[0], settings=MissionSettings(red_expiry_ms=12_000, treat_blue_ms=20_000))
+    assert only(GoalSet, game.records)[0].goal == "v03"
+    game.act(E, N, N, T)
+    happened = game.wait(12_000)
+    treated = only(TreatmentStarted, game.records)[0].victim
+    assert [(g.goal, g.reason) for g in only(GoalSet, happened)] == [(treated, "expired")]
+    assert isinstance(happened[-1], InstructionCompleted)
+    assert only(GoalSet, game.wait(10_000))[0].reason == "rescued"
+    game.act(T)
+    game.wait(21_000)
+    assert game.mission.rescued == 2
+    assert game.coach.guidance.notice == NOBODY_IN_TIME
+
+
 def test_when_nobody_can_be_reached_the_bar_says_so() -> None:
     alone = parse_building(BOX.text.replace(".o.o.", ".....").replace("o = blue victim\n", ""))
     game = Game(STATIC[1], alone, MissionSettings(red_expiry_ms=5_000))
@@ -301,21 +393,49 @@ def test_ana_lowers_the_level_of_someone_who_walks_away_and_says_it_anew_at_once
     assert evaluation.comprehension == changed[0].comprehension < evaluation.lower_below
 
 
+def test_a_level_rises_with_a_rescue_and_not_with_a_goal_that_is_lost() -> None:
+    game, reader = Game(ADAPTIVE[0], PRACTICE), LiteralReader("compass")
+    while not only(Rescued, game.records):
+        action = reader.decide(game.run.observation())
+        game.wait(500) if action is None else game.act(action)
+    rescued = only(Rescued, game.records)[0]
+    changed = only(LevelChanged, game.records)
+    assert [(record.at_ms, record.after) for record in changed] == [(rescued.at_ms, Level.C3)]
+
+    lost = Game(ADAPTIVE[0], PRACTICE, MissionSettings(red_expiry_ms=20_000))
+    for _ in range(12):
+        lost.act(_nearer(lost))
+    happened = lost.wait(20_000)
+    assert "raise" in {record.verdict for record in only(PosteriorEvaluated, happened)}
+    assert [record.reason for record in only(GoalSet, happened)] == ["expired"]
+    assert not only(LevelChanged, happened)
+
+
 def _away(game: Game) -> Action:
     """The step that leads farthest from the goal."""
+    return max(_steps(game))[1]
+
+
+def _nearer(game: Game) -> Action:
+    """A step that leads to the goal."""
+    return min(_steps(game))[1]
+
+
+def _steps(game: Game) -> list[tuple[int, Action]]:
+    """Moves to go after each possible step."""
     goal = only(GoalSet, game.records)[-1].goal
     plan, position = game.mission.building.plan, game.mission.position
     site = next(site for site in game.mission.building.victims if site.id == goal)
     field = cost_to_go(plan, site.cell)
-    ways = [way for way in COMPASS_ACTIONS.items() if plan.walkable(way[1].from_cell(position))]
-    return max(ways, key=lambda way: field[plan.index(way[1].from_cell(position))])[0]
+    ways = [(action, way.from_cell(position)) for action, way in COMPASS_ACTIONS.items()]
+    return [(field[plan.index(cell)], action) for action, cell in ways if plan.walkable(cell)]
 
 
 def test_each_preset_evaluates_on_its_own_occasions() -> None:
     when = {}
     for spec in ADAPTIVE:
         game = Game(spec, PRACTICE)
-        play(game.run, LiteralReader("compass", {r.name: r.label for r in PRACTICE.rooms}))
+        drive(game.run, LiteralReader("compass", {r.name: r.label for r in PRACTICE.rooms}))
         when[spec.preset] = only(PosteriorEvaluated, game.records)
         if spec.preset == "literal":
             ended = [
@@ -331,7 +451,7 @@ def test_each_preset_evaluates_on_its_own_occasions() -> None:
 
 def test_released_begins_every_leg_after_a_rescue_at_c2() -> None:
     game = Game(ADAPTIVE[3], PRACTICE)
-    play(game.run, LiteralReader("compass", {r.name: r.label for r in PRACTICE.rooms}))
+    drive(game.run, LiteralReader("compass", {r.name: r.label for r in PRACTICE.rooms}))
     goals = [r.at_ms for r in only(GoalSet, game.records) if r.reason == "rescued"]
     firsts = [r for r in only(InstructionIssued, game.records) if r.reason == "goal"]
     assert len(goals) > 3
@@ -445,7 +565,7 @@ def test_a_literal_follower_saves_nearly_everybody_without_a_misstep(
     name: str, spec: CoachSpec
 ) -> None:
     game = Game(spec, load_building(name))
-    play(game.run, LiteralReader("compass"))
+    drive(game.run, LiteralReader("compass"))
     assert game.mission.rescued in (18, 19)
     assert not only(Misstep, game.records)
     assert not [r for r in only(InstructionIssued, game.records) if r.reason == "off_path"]
@@ -459,7 +579,7 @@ def test_a_literal_follower_saves_nearly_everybody_without_a_misstep(
 def test_nobody_gets_stuck(name: str, spec: CoachSpec, controls: Controls) -> None:
     building = load_building(name)
     game = Game(spec, building, MissionSettings(controls=controls))
-    play(game.run, LiteralReader(controls, {room.name: room.label for room in building.rooms}))
+    drive(game.run, LiteralReader(controls, {room.name: room.label for room in building.rooms}))
     assert game.mission.rescued >= min(16, len(building.victims))
     assert not only(Disobeyed, game.records)
     _check(game, spec)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 from textwrap import wrap
 
@@ -17,7 +18,7 @@ from game.world.floodfill import UNREACHABLE, Floodfills
 from game.world.geometry import Cell, Heading
 from game.world.library import shipped_buildings
 from game.world.mission import Mission
-from game.world.observation import VictimState
+from game.world.observation import Observation, VictimState
 from game.world.settings import Controls, MissionSettings
 
 MISSTEP = {Level.C1: 1, Level.C2: 3, Level.C3: 8}
@@ -73,13 +74,16 @@ class Ground:
             if self.floodfills.distance(cell, start) != UNREACHABLE:
                 yield from (Pose(cell, heading) for heading in Heading)
 
+    def observe(self) -> Observation:
+        return self.mission.observation()
+
     def try_out(self, pose: Pose, text: str) -> Trial:
         """Carry a text out from a pose, with a reader who knows nothing but the Observations."""
         mission = self.mission
         mission.position, mission.heading = pose
         places = {room.name: room.label for room in self.building.rooms}
         walker = Walker(self.settings.controls, places, pose.heading)
-        doing = walker.carry_out(parse(text), mission.observation())
+        doing = walker.carry_out(parse(text), self.observe())
         path, treated = [pose.cell], None
         try:
             action = next(doing)
@@ -91,7 +95,7 @@ class Ground:
                     mission.step(action, 0)
                 if mission.position != path[-1]:
                     path.append(mission.position)
-                action = doing.send(mission.observation())
+                action = doing.send(self.observe())
         except StopIteration:
             return Trial(tuple(path), treated, carried_out=True)
         except Stuck:
@@ -102,7 +106,7 @@ class Ground:
         """What is wrong with an instruction that was tried out; None if it is sound."""
         distances = self.floodfills.to(self.waiting[instruction.goal].cell)
         walked = [distances[self.building.plan.index(cell)] for cell in trial.path]
-        rise = max(at - min(walked[: n + 1]) for n, at in enumerate(walked))
+        rise = max(at - least for at, least in zip(walked, accumulate(walked, min), strict=True))
         checks = {
             "cannot be carried out": not trial.carried_out,
             "looks like a misstep": rise >= MISSTEP[instruction.shown_level],
@@ -115,6 +119,22 @@ class Ground:
             checks["brings nobody nearer"] = walked[-1] >= walked[0]
             checks["ends elsewhere"] = trial.path[-1] != instruction.end.cell
         return next((fault for fault, found in checks.items() if found), None)
+
+
+class Remembered(Ground):
+    """A ground for very many trials: what is seen from a pose is kept while the same victims wait,
+    so what has been explored means nothing."""
+
+    def let_wait(self, waiting: Mapping[str, VictimSite]) -> None:
+        super().let_wait(waiting)
+        self._views: dict[tuple[Cell, Heading], Observation] = {}
+
+    def observe(self) -> Observation:
+        pose = self.mission.position, self.mission.heading
+        view = self._views.get(pose)
+        if view is None:
+            view = self._views[pose] = super().observe()
+        return view
 
 
 def without_each_sentence(text: str) -> Iterator[tuple[str, str]]:

@@ -6,12 +6,15 @@ from itertools import islice
 
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.text import render
-from game.coach.instructions.vocabulary import Tuple
-from game.coach.instructions.way import legs, treats, turn
+from game.coach.instructions.vocabulary import Tuple, Tuples
+from game.coach.instructions.way import legs, treats
 from game.coach.records import Level
 
 MOST_LEGS = 3
 """How many straight runs one instruction holds."""
+
+TURNS: tuple[Tuples, ...] = ((), (("Turn", "Right"),), (("Turn", "Around"),), (("Turn", "Left"),))
+"""How to say a turn of so many quarters to the right."""
 
 STOP: Tuple = ("Stop", "0 Steps")
 UTILIZE: Tuple = ("Utilize", "MedicalEquipment")
@@ -23,9 +26,7 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction:
     path = [start.cell]
     pose = start
     for leg in islice(legs(scene, start, goal), MOST_LEGS):
-        way = turn(pose.heading, leg.heading)
-        if way is not None:
-            tuples.append(("Turn", way.capitalize()))
+        tuples += TURNS[(leg.heading - pose.heading) % 4]
         tuples.append(("Walkforward", f"{len(leg.cells)} Steps"))
         path += leg.cells
         pose = leg.end

@@ -19,23 +19,24 @@ def correction(scene: Scene, instruction: Instruction, pose: Pose) -> str:
     """What went wrong since `instruction` was given, as far as `pose` shows it; empty where it
     shows nothing.
 
-    Somebody who stands straight beyond the end of one of the path's legs has gone too far, or at C2
-    has passed the door that the path turns into there. Somebody who is off the path and farther
-    from the goal than when the instruction was given has gone the wrong way.
+    Somebody who was told the way (C1, C2) and stands straight beyond the end of one of its legs has
+    gone too far, or at C2 has passed the door that the way turns into there. Somebody who is off
+    the way and farther from the goal than at its start has gone the wrong way.
     """
-    if pose.cell in instruction.path:
+    path = instruction.path
+    if pose.cell in path:
         return ""
     plan = scene.building.plan
     distances = scene.descent(pose, instruction.goal)
     here = distances[plan.index(pose.cell)]
-    for at, heading in _leg_ends(instruction.path):
-        end = instruction.path[at]
-        if here > distances[plan.index(end)] and _lies_ahead(plan, end, heading, pose.cell):
-            at_door = instruction.shown_level is Level.C2 and _next_is_door(
-                plan, instruction.path[at:]
-            )
-            return PASSED_DOOR if at_door else TOO_FAR
-    return WRONG_WAY if here > distances[plan.index(instruction.start.cell)] else ""
+    told = () if instruction.shown_level is Level.C3 else _leg_ends(path)
+    for at, heading in told:
+        if here > distances[plan.index(path[at])] and _lies_ahead(
+            plan, path[at], heading, pose.cell
+        ):
+            counts_doors = instruction.shown_level is Level.C2
+            return PASSED_DOOR if counts_doors and _begins_with_door(plan, path[at:]) else TOO_FAR
+    return WRONG_WAY if here > distances[plan.index(path[0])] else ""
 
 
 def _leg_ends(path: tuple[Cell, ...]) -> Iterator[tuple[int, Heading]]:
@@ -60,7 +61,7 @@ def _lies_ahead(plan: Plan, start: Cell, heading: Heading, target: Cell) -> bool
     return False
 
 
-def _next_is_door(plan: Plan, onward: tuple[Cell, ...]) -> bool:
-    """Whether the path's next leg leads into a door."""
+def _begins_with_door(plan: Plan, onward: tuple[Cell, ...]) -> bool:
+    """Whether the first leg of what remains leads into a door."""
     end = next((at for at, _ in _leg_ends(onward)), 0)
     return any(plan.is_door(cell) for cell in onward[1 : end + 1])

@@ -16,7 +16,6 @@ from game.coach.instructions.vocabulary import MOST_COUNTED, Tuple
 from game.world.building import Building, Room
 from game.world.geometry import Cell, Heading
 from game.world.plan import Tile
-from game.world.regions import floor_regions
 from game.world.sight import Sight
 
 ABREAST = 5
@@ -62,6 +61,7 @@ class Landmarks:
         self._moves: dict[tuple[int, Heading], tuple[Move, ...]] = {}
         self._exits: dict[str, dict[int, Move]] = {}
         self._lookouts: dict[Cell, int] = {}
+        self._floors: dict[Cell, int] = {}
 
     def moves(self, start: int, heading: Heading) -> tuple[Move, ...]:
         """Every tuple that can be carried out straight ahead from `start`, facing `heading`."""
@@ -95,13 +95,13 @@ class Landmarks:
                 row << y * plan.width
                 for y in range(max(0, target[1] - radius), min(plan.height, target[1] + radius + 1))
             )
-            mask = square & (self._at_doors | self._region_of[target])
+            mask = square & (self._at_doors | self._floor_around(target))
             self._lookouts[target] = mask
         return mask
 
     def shares_floor(self, cell: int, target: Cell) -> bool:
         """Whether no door lies between the two."""
-        return bool(self._region_of[target] >> cell & 1)
+        return bool(self._floor_around(target) >> cell & 1)
 
     @cached_property
     def _at_doors(self) -> int:
@@ -110,12 +110,20 @@ class Landmarks:
         beside = [heading.from_cell(cell) for cell in doors for heading in Heading]
         return self.building.plan.mask([*doors, *beside])
 
-    @cached_property
-    def _region_of(self) -> dict[Cell, int]:
-        """For every floor cell the mask of the floor that walls and doors close off around it."""
-        plan = self.building.plan
-        masks = {region: plan.mask(region) for region in floor_regions(plan)}
-        return {cell: mask for region, mask in masks.items() for cell in region}
+    def _floor_around(self, target: Cell) -> int:
+        """The mask of the floor that walls and doors close off around a floor cell."""
+        found = self._floors.get(target)
+        if found is None:
+            frontier = [self.building.plan.index(target)]
+            found = 1 << frontier[0]
+            for cell in frontier:
+                for stride in self.strides:
+                    near = cell + stride
+                    if self._tiles[near] == Tile.FLOOR and not found >> near & 1:
+                        found |= 1 << near
+                        frontier.append(near)
+            self._floors[target] = found
+        return found
 
     def path(self, start: int, move: Move) -> list[int]:
         """The cells that a move leads over, without its start."""
@@ -188,10 +196,10 @@ class Landmarks:
                 continue
             thing = f"{count} {met.name}"
             cell = start + steps * self.strides[heading]
-            moves.append(Move(("Proceed", thing), cell, cell, heading, steps, count))
             if met.beyond is not None:
                 total = steps + (met.beyond - cell) // self.strides[met.side]
                 moves.append(Move((verb, thing), cell, met.beyond, met.side, total, count))
+            moves.append(Move(("Proceed", thing), cell, cell, heading, steps, count))
         return moves
 
     def _met_on_run(self, end: int, heading: Heading) -> tuple[Met, ...]:

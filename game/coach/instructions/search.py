@@ -111,11 +111,11 @@ class Search:
             ahead = cell + self._landmarks.strides[heading]
             if self._distances[ahead] < self._distances[cell]:
                 turned = TURNS[(heading - facing) % 4]
-                for move in self._landmarks.moves(cell, heading):
-                    yield turned, move
                 look_out = self._until_seen(cell, heading)
                 if look_out is not None:
                     yield turned, look_out
+                for move in self._landmarks.moves(cell, heading):
+                    yield turned, move
 
     def _can_approach(self, cell: int) -> bool:
         """Whether the goal is in view, and nearer than every other victim of its colour there."""

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from game.coach.instructions.vocabulary import ORDINALS, Tuple, Tuples
+from game.coach.instructions.vocabulary import ORDINALS, Tuple, Tuples, belongs
 from game.coach.records import Level
 
 
 def render(level: Level, tuples: Tuples) -> str:
     """The sentences that say `tuples`, one each. Raises ValueError for a tuple that `level` does
     not have."""
+    for said in tuples:
+        if not belongs(level, said):
+            raise _not_of(level, said)
     return " ".join(_SENTENCES[level](said) for said in tuples)
 
 
 def _at_c1(said: Tuple) -> str:
-    match said:
-        case "Turn", ("Left" | "Right" | "Around") as way:
+    action, phrase = said
+    match action, *phrase.split():
+        case "Turn", way:
             return f"Turn {way.lower()}."
-        case "Walkforward", "1 Steps":
-            return "Walk forward 1 step."
-        case "Walkforward", count:
-            return f"Walk forward {count.removesuffix(' Steps')} steps."
-        case "Stop", _:
+        case "Walkforward", count, "Steps":
+            return f"Walk forward {count} {'step' if count == '1' else 'steps'}."
+        case "Stop", "0", "Steps":
             return "Stop."
         case "Utilize", "MedicalEquipment":
             return "Utilize medical equipment."
@@ -32,14 +34,12 @@ def _at_c2(said: Tuple) -> str:
     match action, *phrase.split():
         case "Turn", way:
             return f"Turn {way.lower()}."
-        case "Proceed", "Hallway":
-            return "Proceed to the end of the hallway."
-        case "Proceed", "Room":
-            return "Proceed to the end of the room."
-        case "Proceed", _, ("redvictim" | "BlueVictim") as victim:
+        case "Proceed", ("Hallway" | "Room") as space:
+            return f"Proceed to the end of the {space.lower()}."
+        case "Proceed", "1", victim:
             return f"Proceed until you see a {_colour(victim)} victim."
-        case "Proceed", count, thing, *side:
-            return f"Proceed to the {_counted(count, thing, side)}."
+        case "Proceed", number, thing, side:
+            return f"Proceed to the {_counted(number, thing, side)}."
         case "Enter" | "Exit", *where:
             return _through(action, where)
         case "ApproachAndSave", victim:
@@ -50,12 +50,12 @@ def _at_c2(said: Tuple) -> str:
 def _through(action: str, where: list[str]) -> str:
     verb = "Enter" if action == "Enter" else "Exit by"
     match where:
-        case ["Room" | "Hallway" as thing]:
-            return f"{action} the {thing.lower()}."
+        case ["Room" | "Hallway" as space]:
+            return f"{action} the {space.lower()}."
         case ["Door"]:
             return f"{verb} the door ahead."
-        case [count, "Door", side]:
-            return f"{verb} the {_counted(count, 'Door', [side])}."
+        case [number, thing, side]:
+            return f"{verb} the {_counted(number, thing, side)}."
     raise _not_of(Level.C2, (action, " ".join(where)))
 
 
@@ -71,9 +71,8 @@ def _at_c3(said: Tuple) -> str:
 _SENTENCES = {Level.C1: _at_c1, Level.C2: _at_c2, Level.C3: _at_c3}
 
 
-def _counted(count: str, thing: str, side: list[str]) -> str:
-    where = f" on your {side[0]}" if side else ""
-    return f"{ORDINALS[int(count) - 1]} {thing.lower()}{where}"
+def _counted(number: str, thing: str, side: str) -> str:
+    return f"{ORDINALS[int(number) - 1]} {thing.lower()} on your {side}"
 
 
 def _colour(victim: str) -> str:

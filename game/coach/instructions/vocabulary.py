@@ -57,11 +57,10 @@ MOST_COUNTED = len(ORDINALS)
 """The highest number of doors or intersections that a person is asked to count."""
 
 
-def is_well_formed(level: Level, said: Tuple, rooms: frozenset[str] = frozenset()) -> bool:
-    """Whether a tuple is made of the level's words alone."""
+def belongs(level: Level, said: Tuple) -> bool:
+    """Whether a tuple is made of the level's words alone; after Goto any name may stand."""
     action, thing = said
     if action not in ACTIONS[level]:
         return False
-    if thing in rooms and level is Level.C3:
-        return True
-    return all(word.isdigit() or word in THINGS[level] for word in thing.split())
+    words = thing.split()
+    return action == "Goto" or all(word.isdigit() or word in THINGS[level] for word in words)

@@ -55,8 +55,3 @@ def treats(scene: Scene, pose: Pose, goal: str) -> bool:
     """Whether triage at `pose` would treat `goal` and nobody else."""
     site = scene.treated_at(pose)
     return site is not None and site.id == goal
-
-
-def turn(before: Heading, after: Heading) -> str | None:
-    """The word for a turn: `left`, `right` or `around`; None where there is none."""
-    return (None, "right", "around", "left")[(after - before) % 4]

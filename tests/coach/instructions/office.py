@@ -66,3 +66,10 @@ def goal_at(cell: Cell) -> str:
 
 def pose(x: int, y: int, heading: Heading) -> Pose:
     return Pose((x, y), heading)
+
+
+@cache
+def poses() -> tuple[Pose, ...]:
+    """Every cell of the office, facing every way."""
+    cells = office().plan.cells(office().plan.walkable_mask)
+    return tuple(Pose(cell, heading) for cell in cells for heading in Heading)

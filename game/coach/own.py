@@ -1,0 +1,65 @@
+"""Coaches of one's own, loaded from a Python file outside the house."""
+
+from __future__ import annotations
+
+import importlib.util
+from difflib import get_close_matches
+from hashlib import sha256
+from pathlib import Path
+from typing import cast
+
+from game.coach.api import Briefing, Coach
+from game.errors import AnaError
+
+SEPARATOR = ":"
+SURFACE = ("guidance", "next_evaluation_ms", "begin", "told", "evaluate")
+"""What `game.coach.api.Coach` asks for."""
+
+
+def source_hash(source: str) -> str:
+    """SHA-256 of the file in `FILE.py:CLASS`. Raises AnaError where it cannot be read."""
+    path = source.rpartition(SEPARATOR)[0]
+    try:
+        return sha256(Path(path).read_bytes()).hexdigest()
+    except OSError as error:
+        raise AnaError(
+            f"the coach's file cannot be read ({error.strerror})",
+            place=path,
+            mend="Give it as FILE.py:CLASS.",
+        ) from error
+
+
+def own_coach(source: str, digest: str, briefing: Briefing) -> Coach:
+    """A coach of the class in `FILE.py:CLASS`, which is called with the briefing.
+
+    Raises AnaError where the file is not the one of `digest`, cannot be run, has no such class, or
+    where the class lacks a part of the surface of a coach.
+    """
+    path, _, name = source.rpartition(SEPARATOR)
+    if source_hash(source) != digest:
+        raise AnaError("the coach's file is not the one that was played with", place=path)
+    spec = importlib.util.spec_from_file_location(Path(path).stem, path)
+    if spec is None or spec.loader is None:
+        raise AnaError("this is not a Python file", place=path, mend="Its name must end in .py.")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise AnaError(f"the coach's file cannot be run: {error!r}", place=path) from error
+    made = getattr(module, name, None)
+    if not callable(made):
+        near = get_close_matches(name, vars(module), n=1)
+        mend = f"Did you mean {near[0]}?" if near else ""
+        raise AnaError(f"there is no class {name}", place=path, mend=mend)
+    try:
+        coach = made(briefing)
+    except Exception as error:
+        raise AnaError(f"{name} cannot be made from a briefing: {error!r}", place=path) from error
+    missing = [part for part in SURFACE if not hasattr(coach, part)]
+    if missing:
+        raise AnaError(
+            f"{name} is no coach: it lacks {', '.join(missing)}",
+            place=path,
+            mend="docs/write-your-own-coach.md shows a whole one.",
+        )
+    return cast(Coach, coach)
