@@ -56,6 +56,7 @@ class LazyGroup(click.Group):
         LazyCommand("verify", "game.verify_cli:command", "Prove that journals replay to the same."),
         LazyCommand("building", "game.buildings_cli:group", "Check a building file, or show one."),
         LazyCommand("study", "game.study_cli:group", "Set up and run the experiment."),
+        LazyCommand("simulate", "game.simulate_cli:command", "Simulate a whole study."),
         LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
         LazyCommand("doctor", "game.doctor:command", "Check that this terminal can play."),
         LazyCommand("completion", "game.completion:command", "Print a shell's completion script."),

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from platformdirs import user_data_path
-
 PACKAGE = Path(__file__).resolve().parent
 
 
@@ -21,5 +19,8 @@ def sessions_folder(package: Path = PACKAGE) -> Path:
     It is not created here.
     """
     root = checkout(package)
-    data = user_data_path("ana", appauthor=False) if root is None else root / "data"
-    return data / "sessions"
+    if root is not None:
+        return root / "data" / "sessions"
+    from platformdirs import user_data_path
+
+    return user_data_path("ana", appauthor=False) / "sessions"

@@ -16,6 +16,7 @@ from game.coach.presets import PRESETS
 from game.coach.spec import parse_coach
 from game.errors import AnaError
 from game.places import sessions_folder
+from game.rescuers.catalogue import LITERAL, RESCUERS, character
 from game.screens.app import PlayOptions, run_play, run_replay, run_watch
 from game.world import load_building
 from game.world.settings import MissionSettings
@@ -74,9 +75,16 @@ def play(**given: Any) -> int:
 
 @click.command(name="watch")
 @_mission_options
-def watch(**given: Any) -> int:
-    """Watch a simulated rescuer, who follows every word of the coach, play a mission."""
-    return run_watch(_options(**given))
+@click.option(
+    "--rescuer",
+    default=LITERAL,
+    show_default=True,
+    metavar="NAME",
+    help=f"Who plays: {', '.join(RESCUERS)}.",
+)
+def watch(rescuer: str, **given: Any) -> int:
+    """Watch a simulated rescuer play a mission."""
+    return run_watch(replace(_options(**given), rescuer=character(rescuer).name))
 
 
 @click.command(name="replay")

@@ -56,6 +56,15 @@ class Due(NamedTuple):
     order: Order
 
 
+class _Seen(NamedTuple):
+    """What an observation holds of the building, until the rescuer or a victim changes."""
+
+    visible: int
+    victims: tuple[SeenVictim, ...]
+    remembered: tuple[SeenVictim, ...]
+    rooms: tuple[SeenRoom, ...]
+
+
 class Mission:
     """The state of one mission, from 0 ms to `settings.duration_ms`."""
 
@@ -66,6 +75,7 @@ class Mission:
         self.position = building.start
         self.heading = building.start_heading
         self.ended = False
+        self.rescued = 0
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
         self._site_at = {site.cell: site for site in building.victims}
         self._sight = sight_in(building.plan, settings.sight_radius)
@@ -73,11 +83,13 @@ class Mission:
         self._treatment_start_ms = 0
         self._explored = 0
         self._last_seen: dict[str, VictimState] = {}
+        bit = building.plan.bit
+        self._site_bits = tuple((site, bit(site.cell)) for site in building.victims)
+        self._name_bits = tuple(
+            (SeenRoom(room.name, room.label), bit(room.label)) for room in building.rooms
+        )
+        self._reds_waiting = [s.id for s in building.victims if s.severity is Severity.RED]
         self._look()
-
-    @property
-    def rescued(self) -> int:
-        return sum(state is VictimState.RESCUED for state in self.victims.values())
 
     @property
     def score(self) -> int:
@@ -95,7 +107,7 @@ class Mission:
         due = [Due(self.settings.duration_ms, Order.MISSION_END)]
         if self._treated is not None:
             due.append(Due(self._treatment_end_ms(), Order.TREATMENT_END))
-        if self._reds_waiting():
+        if self._reds_waiting:
             due.append(Due(self.settings.red_expiry_ms, Order.EXPIRY))
         return min(due)
 
@@ -144,28 +156,14 @@ class Mission:
 
     def observation(self, guidance: Guidance | None = None) -> Observation:
         """What the rescuer sees now, with `guidance` on the bar."""
-        building, settings = self.building, self.settings
-        index = building.plan.index
-        visible = self._sight.field(self.position)
-        in_view, remembered = [], []
-        for site in building.victims:
-            if visible >> index(site.cell) & 1:
-                in_view.append(SeenVictim(site.cell, site.severity, self.victims[site.id]))
-            elif site.id in self._last_seen:
-                state = self._last_seen[site.id]
-                remembered.append(SeenVictim(site.cell, site.severity, state))
-        rooms = tuple(
-            SeenRoom(room.name, room.label)
-            for room in building.rooms
-            if visible >> index(room.label) & 1
-        )
+        settings, seen = self.settings, self._seen
         return Observation(
-            plan=building.plan,
-            visible=visible,
+            plan=self.building.plan,
+            visible=seen.visible,
             explored=self._explored,
-            victims=tuple(in_view),
-            remembered=tuple(remembered),
-            rooms=rooms,
+            victims=seen.victims,
+            remembered=seen.remembered,
+            rooms=seen.rooms,
             position=self.position,
             heading=self.heading,
             time_ms=self.time_ms,
@@ -233,20 +231,16 @@ class Mission:
 
     def _finish_treatment(self, at_ms: int) -> list[MissionEvent]:
         assert self._treated is not None
-        victim, self._treated = self._treated.id, None
+        victim, severity, self._treated = self._treated.id, self._treated.severity, None
         self.victims[victim] = VictimState.RESCUED
+        self.rescued += 1
+        if severity is Severity.RED:
+            self._reds_waiting.remove(victim)
         self._look()
         return [Rescued(at_ms, victim)]
 
-    def _reds_waiting(self) -> list[str]:
-        return [
-            site.id
-            for site in self.building.victims
-            if site.severity is Severity.RED and self.victims[site.id] is VictimState.WAITING
-        ]
-
     def _expire_reds(self, at_ms: int) -> list[MissionEvent]:
-        expired = self._reds_waiting()
+        expired, self._reds_waiting = self._reds_waiting, []
         for victim in expired:
             self.victims[victim] = VictimState.EXPIRED
         self._look()
@@ -260,10 +254,16 @@ class Mission:
         return Treatment(site.cell, site.severity, self.time_ms - self._treatment_start_ms, total)
 
     def _look(self) -> None:
-        """Remember what is in view now."""
+        """See what is in view now, and remember it."""
         visible = self._sight.field(self.position)
         self._explored |= visible
-        index = self.building.plan.index
-        for site in self.building.victims:
-            if visible >> index(site.cell) & 1:
-                self._last_seen[site.id] = self.victims[site.id]
+        in_view, remembered = [], []
+        for site, bit in self._site_bits:
+            if visible & bit:
+                state = self._last_seen[site.id] = self.victims[site.id]
+                in_view.append(SeenVictim(site.cell, site.severity, state))
+            elif site.id in self._last_seen:
+                state = self._last_seen[site.id]
+                remembered.append(SeenVictim(site.cell, site.severity, state))
+        rooms = tuple(room for room, bit in self._name_bits if visible & bit)
+        self._seen = _Seen(visible, tuple(in_view), tuple(remembered), rooms)

@@ -50,6 +50,10 @@ class Plan:
     def index(self, cell: Cell) -> int:
         return cell[1] * self.width + cell[0]
 
+    def bit(self, cell: Cell) -> int:
+        """The mask with `cell` alone set."""
+        return 1 << self.index(cell)
+
     def cell(self, index: int) -> Cell:
         y, x = divmod(index, self.width)
         return x, y

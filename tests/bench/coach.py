@@ -99,9 +99,7 @@ def mission_s(name: str) -> float:
     """Seconds for a whole mission of a literal reader with ANA, journal kept, in a warm process."""
     building = load_building(name)
     start = time.perf_counter()
-    run, journal = start_in_memory(
-        building, SETTINGS, parse_coach("ana"), 1, rescuer="literal"
-    )
+    run, journal = start_in_memory(building, SETTINGS, parse_coach("ana"), 1, rescuer="literal")
     drive(run, reader(building))
     journal.close()
     return time.perf_counter() - start

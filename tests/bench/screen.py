@@ -129,5 +129,3 @@ def _cpu_s(pid: int) -> float:
     """CPU seconds of all threads of a process."""
     tasks = Path(f"/proc/{pid}/task").glob("*/schedstat")
     return sum(int(task.read_text().split()[0]) for task in tasks) / 1e9
-
-

@@ -1,0 +1,355 @@
+"""The program with the screens: what leads to what, and how it begins and ends.
+
+A screen is imported when it is first shown, so that the first picture of a mission waits for
+nothing that it does not need.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, ClassVar
+
+from textual import events
+from textual.app import App
+from textual.screen import Screen
+
+from game.coach.spec import CoachSpec, parse_coach
+from game.errors import AnaError
+from game.places import sessions_folder
+from game.rescuers.catalogue import LITERAL, character
+from game.screens.dialogs import LEAST_SIZE, Notice, TooSmall
+from game.screens.live import LiveMission
+from game.screens.mission import Failed, Finished, LiveScreen, MissionScreen
+from game.screens.preferences import (
+    Preferences,
+    load_preferences,
+    preferences_file,
+    save_preferences,
+)
+from game.screens.signals import lead_out
+from game.screens.theme import THEMES, theme_name
+from game.session.journal import Journal
+from game.session.play import start_free_play
+from game.session.records import Terminal
+from game.session.sink import FileSink
+from game.world import load_building
+from game.world.building import Building
+from game.world.settings import MissionSettings
+
+if TYPE_CHECKING:
+    from game.screens.home import HomeScreen
+    from game.screens.result import ResultScreen
+    from game.screens.watch import WatchScreen
+    from game.session.replay import Replay
+
+
+@dataclass(frozen=True)
+class PlayOptions:
+    """A mission of free play: where, by which rules, with which coach, kept in which folder; and
+    who plays it where it is watched, by the name in `game.rescuers.catalogue`."""
+
+    building: Building
+    spec: CoachSpec
+    settings: MissionSettings
+    seed: int
+    log_dir: Path
+    rescuer: str = LITERAL
+
+
+class AnaApp(App[None], inherit_bindings=False):
+    """Every screen in one program; `first` makes the one it begins with."""
+
+    CSS_PATH: ClassVar[list[str | PurePath]] = [
+        "styles/base.tcss",
+        "styles/mission.tcss",
+        "styles/pages.tcss",
+    ]
+    ENABLE_COMMAND_PALETTE = False
+
+    def __init__(
+        self,
+        first: Callable[[AnaApp], None],
+        options: PlayOptions | None = None,
+        preferences: Path | None = None,
+    ) -> None:
+        self._preferences_file = preferences or preferences_file()
+        self.preferences = load_preferences(self._preferences_file)
+        theme = theme_name(os.environ, self.preferences.ground)
+        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
+        for known in THEMES:
+            self.register_theme(known)
+        self.theme = theme
+        self._first = first
+        self._options = options
+        self.failure: AnaError | None = None
+        self.live: LiveMission | None = None
+        self._been_home = False
+
+    # --- beginning and ending -------------------------------------------------------------------
+
+    def on_mount(self) -> None:
+        lead_out(self._note_signal, self._leave)
+        self._first(self)
+
+    def _note_signal(self, name: str) -> None:
+        if self.live is not None:
+            self.live.interrupt(name)
+
+    def _leave(self, status: int) -> None:
+        self.exit(return_code=status)
+
+    def on_failed(self, message: Failed) -> None:
+        self.failure = message.error
+        self.exit(return_code=2)
+
+    # --- the window -----------------------------------------------------------------------------
+
+    def on_resize(self, event: events.Resize) -> None:
+        columns, rows = LEAST_SIZE
+        small = event.size.width < columns or event.size.height < rows
+        shown = isinstance(self.screen, TooSmall)
+        if small and not shown:
+            self.push_screen(TooSmall())
+        elif shown and not small:
+            self.pop_screen()
+
+    # --- home -----------------------------------------------------------------------------------
+
+    def show_home(self) -> None:
+        """Nothing but the home screen."""
+        from game.screens.home import HomeScreen
+
+        self._been_home = True
+        self._replace(HomeScreen(self.preferences))
+
+    def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
+        home = message.sender
+        self._remember(home.preferences)
+        match message.what:
+            case "play":
+                self.play_mission(self._chosen())
+            case "watch":
+                self.watch_mission(self._chosen())
+            case "replay":
+                self._choose_journal()
+            case "howto":
+                self._show_howto()
+            case "theme":
+                self._turn_theme()
+                home.preferences = self.preferences
+            case _:
+                self.exit()
+
+    def _choose_journal(self) -> None:
+        from game.screens.journals import JournalsScreen, newest_journals
+
+        journals = newest_journals(self._log_dir())
+        self.push_screen(JournalsScreen(journals), self._replay_chosen)
+
+    def _show_howto(self) -> None:
+        from game.screens.howto import HowToScreen
+
+        self.push_screen(HowToScreen())
+
+    def _log_dir(self) -> Path:
+        return self._options.log_dir if self._options else sessions_folder()
+
+    def _remember(self, preferences: Preferences) -> None:
+        if preferences != self.preferences:
+            self.preferences = preferences
+            save_preferences(self._preferences_file, preferences)
+
+    def _turn_theme(self) -> None:
+        ground = "dark" if self.theme == "ana-light" else "light"
+        self._remember(self.preferences.replaced(ground=ground))
+        self.theme = theme_name(os.environ, self.preferences.ground)
+
+    def _chosen(self) -> PlayOptions:
+        kind, _, level = self.preferences.coach.partition("-")
+        seed = int.from_bytes(os.urandom(4))
+        settings = self._options.settings if self._options else MissionSettings()
+        return PlayOptions(
+            load_building(self.preferences.building),
+            parse_coach(kind, int(level) if level else None),
+            settings,
+            seed,
+            self._log_dir(),
+        )
+
+    # --- missions -------------------------------------------------------------------------------
+
+    def play_mission(self, options: PlayOptions) -> None:
+        """A person plays."""
+        self._begin(options, lambda: self._mission(options))
+
+    def watch_mission(self, options: PlayOptions) -> None:
+        """A simulated rescuer plays."""
+        self._begin(options, lambda: self._watching(options))
+
+    def _begin(self, options: PlayOptions, make: Callable[[], LiveScreen]) -> None:
+        self._options = options
+        try:
+            screen = make()
+        except AnaError as error:
+            self._say_or_fail("The mission cannot begin", error)
+            return
+        self.live = screen.live
+        self._replace(screen)
+
+    def _mission(self, options: PlayOptions) -> MissionScreen:
+        run, journal = start_free_play(
+            options.building,
+            options.settings,
+            options.spec,
+            options.seed,
+            options.log_dir,
+            self._terminal(),
+        )
+        return MissionScreen(LiveMission(run, journal), _path(journal))
+
+    def _watching(self, options: PlayOptions) -> WatchScreen:
+        from game.screens.coachpanel import OverheardCoach
+        from game.screens.watch import WatchScreen
+
+        building, who = options.building, character(options.rescuer)
+        run, journal = start_free_play(
+            building,
+            options.settings,
+            options.spec,
+            options.seed,
+            options.log_dir,
+            self._terminal(),
+            rescuer=who.name,
+            build=OverheardCoach.build,
+        )
+        coach = run.coach
+        assert isinstance(coach, OverheardCoach)
+        rescuer = who.make(building, options.settings, options.seed)
+        return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
+
+    def _terminal(self) -> Terminal:
+        return Terminal(os.environ.get("TERM", ""), os.environ.get("COLORTERM", ""), *self.size)
+
+    def on_finished(self, message: Finished) -> None:
+        from game.screens.result import ResultScreen
+        from game.screens.story import tell
+        from game.session.reader import read_journal
+        from game.session.replay import Replay
+
+        self.live = None
+        if not message.complete:
+            self._step_back()
+            return
+        try:
+            replay = Replay(read_journal(message.journal))
+            replay.seek(replay.duration_ms)
+        except AnaError as error:
+            self._say_or_fail("The journal cannot be read", error)
+            return
+        self._replace(ResultScreen(tell(replay), message.journal))
+
+    def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
+        if message.what == "again" and self._options is not None:
+            self.play_mission(replace(self._options, seed=self._options.seed + 1))
+        elif message.what == "replay":
+            self.replay(message.journal)
+        else:
+            self.show_home()
+
+    # --- replay ---------------------------------------------------------------------------------
+
+    def replay(self, journal: Path) -> None:
+        """Replay the first mission of a journal, over the screen that is shown."""
+        from game.session.reader import read_journal
+        from game.session.replay import Replay
+
+        try:
+            self.show_replay(Replay(read_journal(journal)))
+        except AnaError as error:
+            self._say_or_fail("This cannot be replayed", error)
+
+    def _replay_chosen(self, journal: Path | None) -> None:
+        if journal is not None:
+            self.replay(journal)
+
+    def show_replay(self, replay: Replay) -> None:
+        """Show a replay over whatever is shown."""
+        from game.screens.replay import ReplayScreen
+
+        self.push_screen(ReplayScreen(replay))
+
+    def on_replay_screen_left(self) -> None:
+        if len(self.screen_stack) > 2:
+            self.pop_screen()
+        else:
+            self._step_back()
+
+    # --- the stack of screens -------------------------------------------------------------------
+
+    def _step_back(self) -> None:
+        """Home, for who came from there; else out."""
+        if self._been_home:
+            self.show_home()
+        else:
+            self.exit()
+
+    def _replace(self, screen: Screen[None]) -> None:
+        while len(self.screen_stack) > 2:
+            self.pop_screen()
+        if len(self.screen_stack) == 2:
+            self.switch_screen(screen)
+        else:
+            self.push_screen(screen)
+
+    def _say_or_fail(self, title: str, error: AnaError) -> None:
+        """Tell of an error where the user can go on from; leave with it where nothing is shown."""
+        if len(self.screen_stack) > 1:
+            self.push_screen(Notice(title, str(error), key="Back"))
+        else:
+            self.failure = error
+            self.exit(return_code=2)
+
+
+def _path(journal: Journal) -> Path:
+    assert isinstance(journal.sink, FileSink)
+    return journal.sink.path
+
+
+def run_home() -> int:
+    """Open the home screen; the exit status. Raises AnaError for what the user can mend."""
+    return _run(AnaApp(AnaApp.show_home))
+
+
+def run_play(options: PlayOptions) -> int:
+    """Play a mission at once, and go on from there."""
+    return _run(AnaApp(lambda app: app.play_mission(options), options))
+
+
+def run_watch(options: PlayOptions) -> int:
+    """Let a simulated rescuer play, in the same screen."""
+    return _run(AnaApp(lambda app: app.watch_mission(options), options))
+
+
+def run_replay(journal: Path) -> int:
+    """Replay a journal's first mission."""
+    from game.session.reader import read_journal
+    from game.session.replay import Replay
+
+    replay = Replay(read_journal(journal))
+    return _run(AnaApp(lambda app: app.show_replay(replay)))
+
+
+def _run(app: AnaApp) -> int:
+    if not all(stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)):
+        raise AnaError(
+            "this is not a terminal",
+            mend="Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
+        )
+    app.run(mouse=False)
+    if app.failure is not None:
+        raise app.failure
+    return app.return_code or 0

@@ -1,0 +1,46 @@
+"""What the home screen remembers from one time to the next."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+from platformdirs import user_config_path
+
+Ground = Literal["dark", "light"]
+
+
+class Preferences(msgspec.Struct, frozen=True):
+    """The last choices. `ground` is None while the user has not chosen one."""
+
+    building: Literal["harbour", "foundry", "practice"] = "harbour"
+    coach: Literal["ana", "static-1", "static-2", "static-3"] = "ana"
+    ground: Ground | None = None
+
+    def replaced(self, **changes: str) -> Preferences:
+        """These with some choices changed. Raises msgspec.ValidationError for an unknown one."""
+        return msgspec.convert(msgspec.to_builtins(self) | changes, Preferences)
+
+
+def preferences_file() -> Path:
+    """Where they are kept: beside the user's other settings."""
+    return user_config_path("ana", appauthor=False) / "home.json"
+
+
+def load_preferences(path: Path) -> Preferences:
+    """What was kept at `path`; the defaults where there is nothing that can be read."""
+    with suppress(OSError, msgspec.DecodeError):
+        return msgspec.json.decode(path.read_bytes(), type=Preferences)
+    return Preferences()
+
+
+def save_preferences(path: Path, preferences: Preferences) -> None:
+    """Keep them, where that is possible: a choice forgotten is no reason to stop a game."""
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        beside = path.with_suffix(f".{os.getpid()}")
+        beside.write_bytes(msgspec.json.encode(preferences))
+        beside.replace(path)

@@ -1,0 +1,183 @@
+"""The page after a mission: totals, the way walked, rescues and levels over time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+from textual import events
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import VerticalScroll
+from textual.message import Message
+from textual.screen import Screen
+
+from game.screens.canvas import BLANK, Canvas, Row, beside
+from game.screens.charts import area_chart, step_chart
+from game.screens.glyphs import HEADING_ARROWS
+from game.screens.keyline import KeyLine
+from game.screens.minimap import BRAILLE, HALF_BLOCKS, PIN_STYLES, STYLES, Pin, SmallMap, map_size
+from game.screens.story import Story
+from game.world.building import Severity, VictimSite
+from game.world.geometry import Cell
+from game.world.labels import HALF_BLOCKS as LABEL_SCALE
+from game.world.labels import label_lines
+from game.world.observation import VictimState
+
+DEAF_S = 0.8
+"""For so long keys do nothing, since the last ones were meant for the mission."""
+_CHART_ROWS = 5
+NARROWEST_CHART = 26
+_NAMES = {1: "C1", 2: "C2", 3: "C3"}
+
+
+def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
+    """How a victim stands on a small map."""
+    if state is VictimState.RESCUED:
+        return "✓", "rescued"
+    if state is VictimState.EXPIRED:
+        return "✗", "expired"
+    return ("●", "red") if victim.severity is Severity.RED else ("○", "blue")
+
+
+def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
+    """The building with the way walked and what became of the victims; with room names where
+    there is room for half-blocks. `filled` draws the way as an area, else as dots."""
+    building, plan = story.building, story.building.plan
+    scale = HALF_BLOCKS if map_size(plan, HALF_BLOCKS)[0] <= columns else BRAILLE
+    pins: dict[Cell, Pin] = {}
+    if scale is HALF_BLOCKS:
+        taken = {victim.cell for victim in building.victims}
+        for room in building.rooms:
+            free = tuple(cell for cell in room.cells if cell not in taken)
+            for line in label_lines(room.name, free, LABEL_SCALE) if free else ():
+                for column, letter in enumerate(line.text, start=line.column):
+                    pins[column, 2 * line.row] = letter, "name"
+    tints: dict[Cell, str] = {}
+    if filled and scale is HALF_BLOCKS:
+        tints = dict.fromkeys(story.path, "trail")
+    else:
+        pins = dict.fromkeys(story.path, ("•", "trail")) | pins
+    for victim in building.victims:
+        pins[victim.cell] = victim_pin(victim, story.states[victim.id])
+    pins[building.start] = HEADING_ARROWS[building.start_heading], "here/here"
+    return SmallMap(plan, scale, tints).rows((1 << len(plan.tiles)) - 1, pins)
+
+
+def rescue_chart(story: Story, columns: int, rows: int) -> list[Row]:
+    """Rescued victims over the mission's time."""
+    return area_chart(
+        "Rescued",
+        story.rescues,
+        max(4, story.rescued),
+        story.until_ms,
+        story.settings.duration_ms,
+        columns=columns,
+        rows=rows,
+    )
+
+
+def level_chart(story: Story, columns: int, rows: int) -> list[Row]:
+    """The level of the coach's words over time, as in the paper's Fig. 10."""
+    return step_chart(
+        "Level of the coach's words",
+        story.levels,
+        [(level, _NAMES[level]) for level in (1, 2, 3)],
+        story.until_ms,
+        story.settings.duration_ms,
+        columns=columns,
+        rows=rows,
+    )
+
+
+def total_rows(story: Story) -> list[Row]:
+    """What it came to, in words."""
+    saved = {severity: story.count(severity, VictimState.RESCUED) for severity in Severity}
+    lost = story.count(Severity.RED, VictimState.EXPIRED)
+    total = len(story.building.victims)
+    first: Row = (
+        (f"{story.rescued} of {total} rescued", "big"),
+        (f"   {saved[Severity.RED]} red, {saved[Severity.BLUE]} blue", "quiet"),
+        (f"   {lost} came too late" if lost else "", "quiet"),
+    )
+    if story.settings.show_score:
+        first = (*first, (f"   {story.score} points", "big"))
+    moves = len(story.path) - 1
+    told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
+    return [first, ((told, "quiet"),)]
+
+
+def result_rows(story: Story, columns: int, *, filled: bool) -> list[Row]:
+    """The whole page, `columns` wide."""
+    area = path_map(story, columns=columns, filled=filled)
+    area_columns = max(sum(len(text) for text, _ in row) for row in area) + 2
+    rows = [BLANK, *total_rows(story), BLANK]
+    if columns - area_columns >= NARROWEST_CHART:
+        wide = columns - area_columns
+        high = max(3, min(9, (len(area) - 7) // 2))
+        charts = [*rescue_chart(story, wide, high), BLANK, *level_chart(story, wide, min(high, 5))]
+        return rows + beside(area, charts, area_columns)
+    half = columns // 2
+    charts = beside(
+        rescue_chart(story, half - 2, _CHART_ROWS), level_chart(story, half, _CHART_ROWS), half
+    )
+    return [*rows[1:], *area, *charts]
+
+
+class ResultPage(Canvas):
+    """The page as a widget."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        *STYLES, *PIN_STYLES, "title", "quiet", "faint", "line", "area", "big",
+    }  # fmt: skip
+
+    def __init__(self, story: Story) -> None:
+        super().__init__()
+        self._story = story
+
+    def on_resize(self, event: events.Resize) -> None:
+        filled = not self.app.native_ansi_color
+        self.draw(result_rows(self._story, event.size.width, filled=filled))
+
+
+class ResultScreen(Screen[None]):
+    """Shows a finished mission and where its journal is."""
+
+    class Wanted(Message):
+        """What to do next: `again`, `replay` or `home`."""
+
+        def __init__(self, what: str, journal: Path) -> None:
+            super().__init__()
+            self.what = what
+            self.journal = journal
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter,a", "want('again')", "Play again", id="result.again"),
+        Binding("r", "want('replay')", "Replay this", id="result.replay"),
+        Binding("escape,q,h", "want('home')", "Home", id="result.home"),
+    ]
+
+    def __init__(self, story: Story, journal: Path) -> None:
+        super().__init__()
+        self._story = story
+        self._journal = journal
+        self._deaf = True
+
+    def compose(self) -> ComposeResult:
+        with VerticalScroll(classes="page"):
+            yield ResultPage(self._story)
+        yield Canvas([((f" Journal: {self._journal}", ""),)], id="where")
+        yield KeyLine(
+            ("Enter", "play again"), ("R", "replay this"), ("H", "home"), ("↑ ↓", "scroll"),
+            id="keys",
+        )  # fmt: skip
+
+    def on_mount(self) -> None:
+        self.set_timer(DEAF_S, self._listen)
+
+    def _listen(self) -> None:
+        self._deaf = False
+
+    def action_want(self, what: str) -> None:
+        if not self._deaf:
+            self.app.post_message(self.Wanted(what, self._journal))

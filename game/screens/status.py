@@ -1,0 +1,124 @@
+"""The panel beside the office: clock, rescued, score, heading, treatment, and what to press."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from game.screens.canvas import Canvas, Row
+from game.screens.glyphs import HEADING_GLYPHS, HEADING_NAMES, SOLID, victim_kind
+from game.screens.office import in_reach
+from game.world.building import Severity
+from game.world.observation import Observation, VictimState
+from game.world.settings import MissionSettings
+
+HURRY_MS = 30_000
+"""The last part of a mission, and of the red victims' time, that stands out."""
+
+
+def clock_text(left_ms: int) -> str:
+    """Minutes and seconds left, the second that has begun included."""
+    minutes, seconds = divmod(-(-left_ms // 1000), 60)
+    return f"{minutes}:{seconds:02}"
+
+
+def status_rows(observation: Observation, settings: MissionSettings, columns: int) -> list[Row]:
+    """The panel's lines, `columns` wide."""
+    return [
+        _clock(observation, columns),
+        _time_bar(observation, settings, columns),
+        _counts(observation),
+        _reds(observation, settings),
+        (
+            (HEADING_GLYPHS[observation.heading], "player"),
+            (f" facing {HEADING_NAMES[observation.heading]}", "quiet"),
+        ),
+        _doing(observation, columns),
+    ]
+
+
+def _clock(observation: Observation, columns: int) -> Row:
+    left = observation.time_left_ms
+    text = f" {clock_text(left)} "
+    if left <= HURRY_MS:
+        return (text, "hurry"), (" left", "strong")
+    return (text, "clock"), (" left", "quiet")
+
+
+def _time_bar(observation: Observation, settings: MissionSettings, columns: int) -> Row:
+    spent = columns * observation.time_ms // settings.duration_ms
+    reds_end = columns * min(settings.red_expiry_ms, settings.duration_ms) // settings.duration_ms
+    red = max(0, reds_end - spent)
+    return (
+        ("─" * spent, "faint"),
+        ("━" * red, "red-time"),
+        ("━" * (columns - spent - red), "time"),
+    )
+
+
+def _counts(observation: Observation) -> Row:
+    rescued: Row = (("✓ ", "rescued"), (f"{observation.rescued} rescued", "strong"))
+    if observation.score is None:
+        return rescued
+    return (*rescued, (f"  {observation.score} points", "quiet"))
+
+
+def _reds(observation: Observation, settings: MissionSettings) -> Row:
+    left = settings.red_expiry_ms - observation.time_ms
+    red = SOLID[victim_kind(Severity.RED, VictimState.WAITING)].text
+    if left <= 0:
+        return (red, "seen-red"), (" out of time", "faint")
+    style = "hurry" if left <= HURRY_MS else "quiet"
+    return (red, "red"), (" ", "quiet"), (f"{clock_text(left)} for reds", style)
+
+
+def _doing(observation: Observation, columns: int) -> Row:
+    treatment = observation.treatment
+    if treatment is not None:
+        mark = SOLID[victim_kind(treatment.severity, VictimState.WAITING)]
+        wide = columns - 6
+        done = wide * treatment.done_ms // max(1, treatment.total_ms)
+        return (
+            (mark.text, mark.style),
+            (" ", "quiet"),
+            ("█" * done, "progress"),
+            ("░" * (wide - done), "faint"),
+        )
+    if in_reach(observation) is not None:
+        return (" Space ", "key"), (" treats", "strong")
+    return ()
+
+
+def next_change_ms(observation: Observation, columns: int) -> int:
+    """The mission time at which the panel next looks different, if nothing else happens."""
+    second = observation.time_left_ms % 1000 or 1000
+    changes = [observation.time_ms + second]
+    treatment = observation.treatment
+    if treatment is not None:
+        wide = columns - 6
+        done = wide * treatment.done_ms // max(1, treatment.total_ms) + 1
+        due = -(-done * treatment.total_ms // wide)
+        changes.append(observation.time_ms - treatment.done_ms + due)
+    return min(changes)
+
+
+class StatusPanel(Canvas):
+    """Shows the numbers of an Observation."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        "clock", "hurry", "quiet", "strong", "faint", "red-time", "time", "rescued", "red", "blue",
+        "seen-red", "player", "progress", "key",
+    }  # fmt: skip
+
+    def __init__(self, settings: MissionSettings) -> None:
+        super().__init__(id="status")
+        self._settings = settings
+        self._observation: Observation | None = None
+
+    def show(self, observation: Observation) -> None:
+        """Draw the numbers of now."""
+        self._observation = observation
+        self.draw(status_rows(observation, self._settings, self.size.width))
+
+    def on_resize(self) -> None:
+        if self._observation is not None:
+            self.show(self._observation)

@@ -1,0 +1,116 @@
+"""`make bench`: how fast it is, beside the floors measured in the same run.
+
+Nothing here passes or fails: machines differ, and ratios are what can be compared.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import click
+
+from tests.bench.coach import coach_costs, mission_s
+from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paint_ms, key_costs
+
+BUILDINGS = ("harbour", "foundry")
+FLOOR = (sys.executable, "-m", "tests.bench.floor")
+WALK = ["right"] * 8 + ["left"] * 16 + ["right"] * 8
+CLOCK_ROWS = (4, 5, 7)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One measured figure, what it is held against, and the most it should be."""
+
+    name: str
+    measured: float
+    unit: str
+    most: float | None = None
+    floor: float | None = None
+
+    @property
+    def ratio(self) -> float | None:
+        return None if self.floor is None else self.measured / self.floor
+
+    @property
+    def kept(self) -> bool | None:
+        """Whether the figure, or its ratio where there is a floor, is within its bound."""
+        if self.most is None:
+            return None
+        return (self.measured if self.ratio is None else self.ratio) <= self.most
+
+
+def game(*options: str) -> list[str]:
+    return [
+        sys.executable,
+        "-m",
+        "game",
+        "play",
+        "--seed",
+        "1",
+        "--log",
+        tempfile.mkdtemp(),
+        *options,
+    ]
+
+
+def keys() -> Iterator[Figure]:
+    """A key over a pseudo-terminal of 120 x 40, 10 a second at pace 20, coach and journal on."""
+    floor: KeyCosts = key_costs(FLOOR, WALK)
+    ours: KeyCosts = key_costs(game("--set", "moves_per_second=20"), WALK, ignored_rows=CLOCK_ROWS)
+    yield Figure("keys answered", ours.answered, f"of {ours.pressed}")
+    yield Figure("key to painted, p50", ours.p50_ms, "ms", 3, floor.p50_ms)
+    yield Figure("key to painted, p95", ours.p95_ms, "ms", 5, floor.p95_ms)
+    yield Figure("bytes a move", ours.bytes_a_key, "B", 2500)
+    yield Figure("CPU a move", ours.cpu_ms_a_key, "ms", 6)
+
+
+def opening() -> Iterator[Figure]:
+    """From the command to the first paint."""
+    yield Figure("first paint", first_paint_ms(game()), "ms", 1.6, first_paint_ms(FLOOR))
+
+
+def coaching() -> Iterator[Figure]:
+    """Inside the process: the coach's answers, and whole missions on a virtual clock."""
+    costs = coach_costs(BUILDINGS, range(5))
+    yield Figure("coach step, p99", costs.step_p99, "ms", 2)
+    yield Figure("route planned anew, p99", costs.plan_p99, "ms", 5)
+    for name in BUILDINGS:
+        mission_s(name)
+        yield Figure(f"headless mission, {name}", mission_s(name), "s", 0.3)
+
+
+PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
+    "keys": keys,
+    "opening": opening,
+    "coaching": coaching,
+}
+
+
+@click.command()
+@click.argument("parts", nargs=-1, type=click.Choice(list(PARTS)))
+def bench(parts: tuple[str, ...]) -> None:
+    """Measure PARTS, or everything."""
+    click.echo(f"{'':34} {'measured':>10} {'':4} {'floor':>8} {'ratio':>6} {'most':>7}")
+    for part in parts or PARTS:
+        for figure in PARTS[part]():
+            click.echo(_row(figure))
+    click.echo(f"terminal {COLUMNS} x {ROWS}; floor: an empty Textual app that repaints one cell")
+
+
+def _row(figure: Figure) -> str:
+    floor = "" if figure.floor is None else f"{figure.floor:.1f}"
+    ratio = "" if figure.ratio is None else f"{figure.ratio:.2f}"
+    most = "" if figure.most is None else f"{figure.most:g}"
+    verdict = {True: "kept", False: "MISSED", None: ""}[figure.kept]
+    return (
+        f"{figure.name:34} {figure.measured:10.2f} {figure.unit:6} {floor:>6} {ratio:>6} {most:>7}"
+        f"  {verdict}"
+    )
+
+
+if __name__ == "__main__":
+    bench()

@@ -1,0 +1,168 @@
+"""The bar, the small maps, the panel and the charts, as rows."""
+
+from __future__ import annotations
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from game.coach.records import PosteriorEvaluated
+from game.screens.bar import LINES, bar_rows
+from game.screens.canvas import Row, difference, padded, plain, sliced, width
+from game.screens.charts import Step, area_chart, step_chart
+from game.screens.coachpanel import gauge
+from game.screens.minimap import BRAILLE, HALF_BLOCKS, SmallMap
+from game.screens.status import clock_text, next_change_ms, status_rows
+from game.world import load_building
+from game.world.building import Building
+from game.world.events import Action
+from game.world.mission import Mission
+from game.world.observation import Guidance
+from game.world.plan import Tile
+from game.world.settings import MissionSettings
+
+HARBOUR = load_building("harbour")
+words = st.lists(st.text("abcdefgh.", min_size=1, max_size=12), min_size=1, max_size=60)
+rows = st.lists(st.tuples(st.text("xyz", max_size=6), st.sampled_from("abc")), max_size=8).map(
+    tuple
+)
+
+
+@given(words, words.map(lambda w: w[:6]), st.integers(60, 200), st.booleans())
+def test_the_bar_is_always_whole(
+    text: list[str], notice: list[str], columns: int, fresh: bool
+) -> None:
+    guidance = Guidance(" ".join(text), " ".join(notice))
+    drawn = bar_rows(guidance, columns, fresh=fresh)
+    told = " ".join(line[:columns] for line in plain(drawn)).replace("▌", " ").split()
+    assert told == [*notice, *text]
+    assert len(drawn) >= LINES
+
+
+def test_two_lines_at_80_columns_leave_the_bar_its_height() -> None:
+    guidance = Guidance("word " * 22 + "end", "You have passed the door.")
+    assert len(bar_rows(guidance, 80)) == LINES
+
+
+def test_a_notice_is_styled_apart() -> None:
+    drawn = bar_rows(Guidance("Turn left.", "That is the wrong way."), 80)
+    styles = {text.strip(): style for row in drawn for text, style in row if text.strip()}
+    assert styles == {"That is the wrong way.": "notice", "Turn left.": "text"}
+
+
+@given(rows, rows, st.integers(0, 40))
+def test_what_lies_outside_the_difference_is_the_same(old: Row, new: Row, columns: int) -> None:
+    assume(old != new)
+    start, end = difference(old, new, columns)
+
+    def cells(row: Row) -> list[tuple[str, str]]:
+        return [(letter, style) for text, style in padded(row, columns) for letter in text]
+
+    before, after = cells(old), cells(new)
+    assert before[:start] == after[:start]
+    assert before[max(start, end) :] == after[max(start, end) :]
+
+
+@given(rows, st.integers(0, 30), st.integers(0, 30))
+def test_a_slice_is_a_slice_of_the_text(row: Row, start: int, length: int) -> None:
+    assert plain([sliced(row, start, start + length)]) == [plain([row])[0][start : start + length]]
+
+
+@settings(max_examples=10)
+@given(st.lists(st.integers(0, 94 * 51), max_size=6))
+def test_a_small_map_drawn_again_is_as_if_drawn_anew(steps: list[int]) -> None:
+    plan = HARBOUR.plan
+    for scale in (HALF_BLOCKS, BRAILLE):
+        kept, explored = SmallMap(plan, scale), 0
+        for step in steps:
+            explored |= 0b11111 << step
+            pins = {plan.cell(step): ("●", "here/here")}
+            drawn = kept.rows(explored, pins)
+            assert drawn == SmallMap(plan, scale).rows(explored, pins)
+
+
+def test_half_blocks_show_every_wall_and_leave_doors_open() -> None:
+    plan = HARBOUR.plan
+    lines = plain(SmallMap(plan, HALF_BLOCKS).rows(0, {}))
+    assert (len(lines), len(lines[0])) == (plan.height // 2, plan.width)
+    walls = {"█": (True, True), "▀": (True, False), "▄": (False, True)}
+    for y, line in enumerate(lines):
+        for x, character in enumerate(line):
+            seen = walls.get(character, (False, False))
+            assert seen == tuple(plan.tile((x, 2 * y + i)) is Tile.WALL for i in (0, 1))
+
+
+def test_the_small_map_tells_explored_from_unexplored() -> None:
+    for scale in (HALF_BLOCKS, BRAILLE):
+        small = SmallMap(HARBOUR.plan, scale)
+        styles = {style for row in small.rows(0, {}) for _, style in row}
+        everything = (1 << len(HARBOUR.plan.tiles)) - 1
+        assert styles.isdisjoint({s for row in small.rows(everything, {}) for _, s in row})
+
+
+def test_the_clock_counts_begun_seconds() -> None:
+    assert [clock_text(ms) for ms in (240_000, 239_001, 239_000, 1, 0)] == [
+        "4:00", "4:00", "3:59", "0:01", "0:00",
+    ]  # fmt: skip
+
+
+@given(st.integers(0, 9_999), st.integers(10, 60))
+def test_nothing_on_the_panel_changes_before_it_says_so(at_ms: int, columns: int) -> None:
+    building = load_building("practice")
+    rules = MissionSettings(duration_ms=60_000, red_expiry_ms=30_000)
+    mission = Mission(building, rules)
+    mission.step(None, at_ms)
+    observation = mission.observation()
+    due = next_change_ms(observation, columns)
+    assert due > at_ms
+    before = status_rows(observation, rules, columns)
+    mission.step(None, due - 1)
+    after = status_rows(mission.observation(), rules, columns)
+    assert [row for i, row in enumerate(before) if i != 1] == [
+        row for i, row in enumerate(after) if i != 1
+    ]
+
+
+def test_a_hidden_score_is_not_drawn(ward: Building) -> None:
+    for show, drawn in ((True, True), (False, False)):
+        rules = MissionSettings(show_score=show)
+        observation = Mission(ward, rules).observation()
+        text = "\n".join(plain(status_rows(observation, rules, 26)))
+        assert ("points" in text) is drawn
+
+
+def test_the_last_seconds_and_a_victim_in_reach_stand_out(ward: Building) -> None:
+    rules = MissionSettings()
+    mission = Mission(ward, rules)
+    mission.step(None, 209_000)
+    assert all(style != "hurry" for _, style in status_rows(mission.observation(), rules, 26)[0])
+    mission.step(None, 211_000)
+    assert any(style == "hurry" for _, style in status_rows(mission.observation(), rules, 26)[0])
+
+
+def test_treatment_progress_grows(ward: Building) -> None:
+    victim = ward.victims[0]
+    mission = Mission(Building(**{**vars(ward), "start": victim.cell}), MissionSettings())
+    mission.step(Action.TRIAGE, 0)
+    bars = []
+    for at_ms in (0, 1_500, 2_900):
+        mission.step(None, at_ms)
+        bars.append(plain(status_rows(mission.observation(), MissionSettings(), 26))[5].count("█"))
+    assert bars == sorted(set(bars)) and bars[0] == 0
+
+
+def test_charts_reach_their_last_value() -> None:
+    steps = [Step(0, 0), Step(60_000, 3), Step(120_000, 6)]
+    area = plain(area_chart("R", steps, 6, 240_000, 240_000, columns=60, rows=4))
+    assert area[1].endswith("█") and "█" not in area[1][:28] and "4:00" in area[-1]
+    levels = [Step(0, 2), Step(80_000, 1), Step(160_000, 3)]
+    labels = [(1, "C1"), (2, "C2"), (3, "C3")]
+    lines = plain(step_chart("L", levels, labels, 240_000, 240_000, columns=60, rows=3))
+    assert [line[:2] for line in lines[1:4]] == ["C3", "C2", "C1"]
+    assert lines[1].endswith("━") and "┓" in lines[2] and "┏" in lines[1]
+
+
+def test_the_gauge_marks_both_thresholds() -> None:
+    evaluation = PosteriorEvaluated(0, "v01", {}, 0.5, 3, 0.3, 0.8, "keep")
+    bar = plain([gauge(evaluation, 20)])[0]
+    assert [i for i, c in enumerate(bar) if c == "┃"] == [6, 16] and bar.count("█") == 9
+    assert width(gauge(evaluation, 20)) == 20
