@@ -1,4 +1,5 @@
-"""Small maps of a whole building: half-blocks where there is room, braille where there is not.
+"""Small maps of a whole building: half-blocks where there is room, quarter-blocks where there is
+not: both are in every terminal's font.
 
 Both draw the walls, leave the doors open and show explored places brighter. Pins stand on top.
 """
@@ -33,11 +34,11 @@ PIN_STYLES = frozenset(
 NO_TINTS: Mapping[Cell, str] = MappingProxyType({})
 
 _OPEN = ("floor", "door")
-_PRECEDENCE = (
-    "trail", "known-door", "known-wall", "known-floor", "map-door", "map-wall", "map-floor",
-)  # fmt: skip
-"""Which of its cells colours a braille character."""
-_BRAILLE_BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
+_WALLS = ("trail", "known-wall", "map-wall")
+_GROUNDS = ("known-door", "map-door", "known-floor", "map-floor")
+"""Which of its cells gives a quarter-block its colour, and which its ground."""
+_QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
+"""By the sum of 1 (upper left), 2 (upper right), 4 (lower left) and 8 (lower right)."""
 
 
 class Ground(NamedTuple):
@@ -90,23 +91,21 @@ class HalfBlocks:
         return "+" if door.endswith("door") else " ", f"{door}/{floor}"
 
 
-class Braille:
-    """Eight cells in a character, one dot a wall."""
+class QuarterBlocks:
+    """Four cells in a character, two above two."""
 
-    across, down, paper = 2, 4, "dark"
+    across, down, paper = 2, 2, "known-floor"
 
     def character(self, ground: Ground, left: int, top: int) -> Run:
-        dots, shades = 0, set()
-        for dy, bits in enumerate(_BRAILLE_BITS):
-            for dx, bit in enumerate(bits):
-                shade = ground.shade((left + dx, top + dy))
-                shades.add(shade)
-                if not shade.endswith(_OPEN):
-                    dots |= bit
-        return chr(0x2800 + dots), f"{min(shades, key=_PRECEDENCE.index)}/dark"
+        shades = [ground.shade((left + dx, top + dy)) for dy in (0, 1) for dx in (0, 1)]
+        filled = [not shade.endswith(_OPEN) for shade in shades]
+        quarters = _QUARTERS[sum(1 << place for place, full in enumerate(filled) if full)]
+        inks = [shade for shade in _WALLS if shade in shades]
+        papers = [shade for shade in _GROUNDS if shade in shades]
+        return quarters, f"{(inks or papers)[0]}/{(papers or inks)[0]}"
 
 
-HALF_BLOCKS, BRAILLE = HalfBlocks(), Braille()
+HALF_BLOCKS, QUARTER_BLOCKS = HalfBlocks(), QuarterBlocks()
 
 
 def map_size(plan: Plan, scale: Scale) -> tuple[int, int]:
@@ -199,7 +198,7 @@ class MiniMap(Canvas):
         if not columns or not height:
             return
         wide, high = map_size(plan, HALF_BLOCKS)
-        scale = HALF_BLOCKS if wide <= columns and high <= height else BRAILLE
+        scale = HALF_BLOCKS if wide <= columns and high <= height else QUARTER_BLOCKS
         small = self._map
         if small is None or small.plan is not plan or small.scale is not scale:
             small = self._map = SmallMap(plan, scale)

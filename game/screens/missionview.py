@@ -15,7 +15,7 @@ from game.world.observation import Observation
 from game.world.settings import MissionSettings
 
 MIDDLE_COLUMNS = 110
-"""From here on the whole building fits the mini-map in braille."""
+"""From here on the whole building fits the mini-map in quarter-blocks."""
 WIDE_COLUMNS = 180
 """From here on it fits in half-blocks."""
 CROWDED_ROWS = 28

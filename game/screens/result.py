@@ -16,7 +16,15 @@ from game.screens.canvas import BLANK, Canvas, Row, beside
 from game.screens.charts import area_chart, step_chart
 from game.screens.glyphs import HEADING_ARROWS
 from game.screens.keyline import KeyLine
-from game.screens.minimap import BRAILLE, HALF_BLOCKS, PIN_STYLES, STYLES, Pin, SmallMap, map_size
+from game.screens.minimap import (
+    HALF_BLOCKS,
+    PIN_STYLES,
+    QUARTER_BLOCKS,
+    STYLES,
+    Pin,
+    SmallMap,
+    map_size,
+)
 from game.screens.story import Story
 from game.world.building import Severity, VictimSite
 from game.world.geometry import Cell
@@ -44,7 +52,7 @@ def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
     """The building with the way walked and what became of the victims; with room names where
     there is room for half-blocks. `filled` draws the way as an area, else as dots."""
     building, plan = story.building, story.building.plan
-    scale = HALF_BLOCKS if map_size(plan, HALF_BLOCKS)[0] <= columns else BRAILLE
+    scale = HALF_BLOCKS if map_size(plan, HALF_BLOCKS)[0] <= columns else QUARTER_BLOCKS
     pins: dict[Cell, Pin] = {}
     if scale is HALF_BLOCKS:
         taken = {victim.cell for victim in building.victims}

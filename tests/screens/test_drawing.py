@@ -10,7 +10,7 @@ from game.screens.bar import LINES, bar_rows
 from game.screens.canvas import Row, difference, padded, plain, sliced, width
 from game.screens.charts import Step, area_chart, step_chart
 from game.screens.coachpanel import gauge
-from game.screens.minimap import BRAILLE, HALF_BLOCKS, SmallMap
+from game.screens.minimap import HALF_BLOCKS, QUARTER_BLOCKS, SmallMap
 from game.screens.status import clock_text, next_change_ms, status_rows
 from game.world import load_building
 from game.world.building import Building
@@ -71,7 +71,7 @@ def test_a_slice_is_a_slice_of_the_text(row: Row, start: int, length: int) -> No
 @given(st.lists(st.integers(0, 94 * 51), max_size=6))
 def test_a_small_map_drawn_again_is_as_if_drawn_anew(steps: list[int]) -> None:
     plan = HARBOUR.plan
-    for scale in (HALF_BLOCKS, BRAILLE):
+    for scale in (HALF_BLOCKS, QUARTER_BLOCKS):
         kept, explored = SmallMap(plan, scale), 0
         for step in steps:
             explored |= 0b11111 << step
@@ -92,7 +92,7 @@ def test_half_blocks_show_every_wall_and_leave_doors_open() -> None:
 
 
 def test_the_small_map_tells_explored_from_unexplored() -> None:
-    for scale in (HALF_BLOCKS, BRAILLE):
+    for scale in (HALF_BLOCKS, QUARTER_BLOCKS):
         small = SmallMap(HARBOUR.plan, scale)
         styles = {style for row in small.rows(0, {}) for _, style in row}
         everything = (1 << len(HARBOUR.plan.tiles)) - 1
