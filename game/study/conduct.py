@@ -31,7 +31,7 @@ from game.study.session import StudySession
 from game.study.settings import ScreenSize
 from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.texts import LIKERT_POINTS, Consent, Page, filled
-from game.world.building import Building
+from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
 
 SLIDER_POINTS = 100
@@ -89,9 +89,7 @@ class Participant(Protocol):
         ...
 
 
-async def conduct(
-    session: StudySession, participant: Participant
-) -> Literal["over", "stopped"]:
+async def conduct(session: StudySession, participant: Participant) -> Literal["over", "stopped"]:
     """Lead the session on from where it is, to its end or until the participant leaves.
 
     The journal is closed afterwards. Raises JournalError and LedgerError where nothing can be
@@ -227,12 +225,19 @@ async def _label(session: StudySession, who: Participant, step: Step, seen_ms: i
 
 async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
     study, texts = session.study, session.study.texts
-    rules = study.settings.mission
-    time = texts.units.time(rules.duration_ms)
-    await who.read(filled(texts.mission, time=time, instructor=texts.instructors.of(step.round)))
+    rules, building = study.settings.mission, _building(session, step)
+    page = filled(
+        texts.mission,
+        time=texts.units.time(rules.duration_ms),
+        red_time=texts.units.time(rules.red_expiry_ms),
+        victims=str(len(building.victims)),
+        reds=str(sum(site.severity is Severity.RED for site in building.victims)),
+        instructor=texts.instructors.of(step.round),
+    )
+    await who.read(page)
     await _start(session, step, rules.duration_ms)
     spec = instructor(await _allocated(session), step.round, study.settings.preset)
-    task = Playing(session, _building(session, step), spec, rules, f"round {step.round}")
+    task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
     assert task.run is not None
     await session.save(PhaseEnded("completed", task.run.mission.time_ms))

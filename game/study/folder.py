@@ -1,19 +1,21 @@
 """A study's folder: its settings, texts, buildings and ledger, and where its sessions are kept.
 
-    DIR/study.toml, texts.toml, items.toml      what a lab edits
-    DIR/ledger.jsonl                            who was allocated what
-    DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
+DIR/study.toml, texts.toml, items.toml      what a lab edits
+DIR/ledger.jsonl                            who was allocated what
+DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 from secrets import randbelow
 from typing import NamedTuple
 
+from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError
 from game.session.records import StudyCopy
 from game.study.ledger import (
@@ -22,6 +24,7 @@ from game.study.ledger import (
     Mode,
     SettingsAmended,
     StudyCreated,
+    utc_now,
 )
 from game.study.settings import ScreenSize, SettingsError, StudySettings, read_settings
 from game.study.texts import Items, Texts, read_items, read_texts
@@ -87,8 +90,16 @@ def identify(participant: str, *, pilot: bool = False) -> Identity:
     return Identity("pilot" if pilot else "live", participant)
 
 
-def new_study(folder: Path, seed: int | None = None, blocks: int = 5) -> None:
+def new_study(
+    folder: Path,
+    seed: int | None = None,
+    blocks: int = 5,
+    preset: str = DEFAULT_PRESET,
+    now: Callable[[], str] = utc_now,
+) -> None:
     """Make a study folder with the default settings and texts, to be edited.
+
+    `preset` is how the adaptive instructor adapts; `now` gives the time of the creation.
 
     Raises StudyError for a folder that holds something already, or cannot be made.
     """
@@ -103,7 +114,7 @@ def new_study(folder: Path, seed: int | None = None, blocks: int = 5) -> None:
         for name in (SETTINGS, TEXTS, ITEMS):
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
-                text = text.format(seed=seed, blocks=blocks, **_BUILDINGS)
+                text = text.format(seed=seed, blocks=blocks, preset=preset, **_BUILDINGS)
             path = folder / name
             path.touch(mode=0o600)
             path.write_text(text, encoding="utf-8")
@@ -112,7 +123,7 @@ def new_study(folder: Path, seed: int | None = None, blocks: int = 5) -> None:
             f"the folder cannot be made ({error.strerror})", place=str(folder)
         ) from error
     _, digest = read_settings(folder / SETTINGS)
-    Ledger(folder / LEDGER).create(seed, blocks, digest)
+    Ledger(folder / LEDGER, now).create(seed, blocks, digest)
 
 
 def open_study(folder: Path) -> Study:
@@ -168,9 +179,7 @@ def _agreements(study: Study) -> list[StudyCreated | SettingsAmended]:
     ]
 
 
-def _same_as_created(
-    settings: StudySettings, entries: tuple[LedgerEntry, ...], path: Path
-) -> None:
+def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], path: Path) -> None:
     """The seed and the number of places decide the allocation, and never change."""
     created = entries[0] if entries else None
     if not isinstance(created, StudyCreated):
@@ -201,7 +210,7 @@ def _check_map(building: Building, screen: ScreenSize) -> None:
     rows = -(-building.plan.height // HALF_BLOCKS.cells) + MAP_MARGIN[1]
     if columns > screen.columns or rows > screen.rows:
         raise StudyError(
-            f"{building.name} does not fit the study's screen: with its names it takes {columns} x {rows}",
+            f"{building.name} with its names is too large: it takes {columns} x {rows}",
             place=f"{SETTINGS}, screen",
             mend="Enlarge [screen], or choose a smaller building",
         )

@@ -73,7 +73,11 @@ class Unblinded(Entry, frozen=True, tag="unblinded"):
     why: str
 
 
-LedgerEntry = StudyCreated | SlotTaken | SessionEnded | SettingsAmended | Unblinded
+class StudyClosed(Entry, frozen=True, tag="study_closed"):
+    """Recruiting is over: no live slot is taken any more, and nothing need be concealed."""
+
+
+LedgerEntry = StudyCreated | SlotTaken | SessionEnded | SettingsAmended | Unblinded | StudyClosed
 
 _decoder = msgspec.json.Decoder(LedgerEntry)
 
@@ -117,7 +121,7 @@ class Ledger:
         """The participant's slot: the one held already, or the next free one of the mode.
 
         With `refill`, the slots of those who dropped out or withdrew are given out again first.
-        Raises LedgerError when every live slot is taken.
+        Raises LedgerError when every live slot is taken, or the study is closed.
         """
         with self._locked() as write:
             entries = self.entries()
@@ -125,6 +129,10 @@ class Ledger:
             if held is not None:
                 return held
             created = self._created(entries)
+            if mode == "live" and is_closed(entries):
+                raise LedgerError(
+                    "the study is closed", place=str(self.path), mend="Create another study"
+                )
             slot, refilled = _next_slot(entries, mode, refill)
             if mode == "live" and slot >= created.blocks * BLOCK:
                 raise LedgerError(
@@ -182,6 +190,12 @@ class Ledger:
         with self._locked() as write:
             write(Unblinded(utc=self._now(), why=why))
 
+    def close(self) -> None:
+        """Close the study; closing it twice is written once."""
+        with self._locked() as write:
+            if not is_closed(self.entries()):
+                write(StudyClosed(utc=self._now()))
+
     def _created(self, entries: Sequence[LedgerEntry]) -> StudyCreated:
         if entries and isinstance(entries[0], StudyCreated):
             return entries[0]
@@ -232,6 +246,11 @@ def agreed_hash(entries: Sequence[LedgerEntry]) -> str:
         if isinstance(entry, StudyCreated | SettingsAmended)
     ]
     return agreed[-1] if agreed else ""
+
+
+def is_closed(entries: Sequence[LedgerEntry]) -> bool:
+    """Whether recruiting is over."""
+    return any(isinstance(entry, StudyClosed) for entry in entries)
 
 
 def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> SlotTaken | None:

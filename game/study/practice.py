@@ -56,9 +56,7 @@ def legs(building: Building, seed: int) -> tuple[Leg, ...]:
 def leg_building(building: Building, leg: Leg, start: Cell, heading: Heading) -> Building:
     """The practice building with the leg's victim alone, entered at `start`."""
     victim = replace(leg.victim, id="v01")
-    return with_own_text(
-        replace(building, victims=(victim,), start=start, start_heading=heading)
-    )
+    return with_own_text(replace(building, victims=(victim,), start=start, start_heading=heading))
 
 
 def leg_start(

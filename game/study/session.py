@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
+from msgspec.structs import replace
+
 from game.session.clock import Clock, SystemClock
 from game.session.journal import Journal, versions
 from game.session.play import JOURNAL, PERSON
@@ -49,20 +51,23 @@ class StudySession:
         identity: Identity,
         journal: Journal,
         clock: Clock,
+        started: SessionStarted,
         keep: Callable[[], Sink],
         before: Sequence[Entry] = (),
     ) -> None:
-        """`before` are the records of earlier segments. A journal that begins in memory is
-        written to what `keep` makes from consent on."""
+        """`started` opened the journal; `before` are the records of earlier segments. A journal
+        that begins in memory is written to what `keep` makes from consent on."""
         self.study = study
         self.identity = identity
         self.journal = journal
         self.clock = clock
+        self._started = started
         self.progress: Progress = progress((entry.envelope, entry.record) for entry in before)
         self.answers = Answers()
         for entry in before:
             self.answers.note(Step(entry.envelope.phase, entry.envelope.round), entry.record)
         self._make_sink = keep
+        self._kept = bool(before)
         self._writing = False
         self._interruption: Interruption | None = None
 
@@ -108,18 +113,18 @@ class StudySession:
     async def keep(self) -> None:
         """From here on the journal is kept: what it holds is written, and all that follows."""
         memory = self.journal.sink
-        assert isinstance(memory, MemorySink)
-        sink = self._make_sink()
-        sink.write(bytes(memory.data))
-        self.journal.sink = sink
+        if not self._kept and isinstance(memory, MemorySink):
+            sink = self._make_sink()
+            sink.write(bytes(memory.data))
+            self.journal.sink = sink
+            self._kept = True
         await self.journal.wait_durable()
 
     async def decline(self, version: str) -> None:
         """Keep nothing but that the participant declined."""
-        clock, sink = self.clock, self._make_sink()
-        self.journal = Journal(sink, clock)
-        started = opening(self.study, self.identity, None, PERSON, simulated=False)
-        self.journal.append(started)
+        if not self._kept:
+            self.journal = Journal(self._make_sink(), self.clock)
+            self.journal.append(replace(self._started, terminal=None, versions=versions(None)))
         self.enter(Step("consent"))
         self.record(Declined(version))
         await self.finish("declined")
@@ -209,9 +214,9 @@ def open_session(
             mend="Take part under another ID",
         )
     if not path.exists() or b"\n" not in read_file(path):
-        started = opening(study, identity, terminal, rescuer, simulated=rescuer != PERSON)
+        started = _opening(study, identity, terminal, rescuer)
         journal = Journal.buffered(None, started, clock)
-        return StudySession(study, identity, journal, clock, lambda: sink(path))
+        return StudySession(study, identity, journal, clock, started, lambda: sink(path))
     transcript = read_journal(path)
     before = transcript.entries
     over = progress((entry.envelope, entry.record) for entry in before).over
@@ -220,7 +225,9 @@ def open_session(
         if over
         else Journal.resume(path, terminal, clock)
     )
-    session = StudySession(study, identity, journal, clock, lambda: sink(path), before)
+    session = StudySession(
+        study, identity, journal, clock, transcript.started, lambda: sink(path), before
+    )
     if over:
         return session
     if silent_ms is not None:
@@ -230,19 +237,13 @@ def open_session(
     return session
 
 
-def opening(
-    study: Study,
-    identity: Identity,
-    terminal: Terminal | None,
-    rescuer: str,
-    *,
-    simulated: bool,
+def _opening(
+    study: Study, identity: Identity, terminal: Terminal | None, rescuer: str
 ) -> SessionStarted:
-    """The first record of a session's journal."""
     return SessionStarted(
         session=f"{identity.mode}-{identity.participant}",
         mode=identity.mode,
-        simulated=simulated,
+        simulated=rescuer != PERSON,
         rescuer=rescuer,
         participant=identity.participant,
         versions=versions(terminal),

@@ -194,9 +194,7 @@ class Playing:
 
     def begin(self) -> MissionRun:
         """Begin the mission, at 0 ms."""
-        self.run = begin_mission(
-            self.journal, self.building, self.settings, self.spec, self._seed
-        )
+        self.run = begin_mission(self.journal, self.building, self.settings, self.spec, self._seed)
         return self.run
 
     @property

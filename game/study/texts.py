@@ -23,7 +23,7 @@ class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 
 class Page(_Part, frozen=True):
-    """A title and its text; paragraphs are separated by blank lines."""
+    """A title and its text; paragraphs are separated by blank lines, and `**words**` stand out."""
 
     title: str
     body: str
@@ -85,11 +85,13 @@ class Words(_Part, frozen=True):
     """The small words of the screens: what keys do, and what is still to be done."""
 
     go_on: str
+    scroll: str
     yes: str
     no: str
     choose: str
     move: str
     answer: str
+    number: str
     next: str
     filter: str
     clear: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import UTC, datetime
 
 import pytest
 from hypothesis import given
@@ -37,7 +36,7 @@ Log = list[tuple[Envelope, Record]]
 
 
 def at(step: Step, record: Record) -> tuple[Envelope, Record]:
-    moment = datetime(2026, 1, 1, tzinfo=UTC)
+    moment = "2026-01-01T00:00:00.000Z"
     return Envelope(0, 0, 0, moment, step.phase, step.round), record
 
 

@@ -10,7 +10,14 @@ from game.study.settings import SettingsError, read_settings
 from game.study.texts import TextsError, read_items, read_texts
 
 TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
-NAMES = {"seed": 1, "blocks": 5, "first": "one", "second": "two", "practice": "three"}
+NAMES = {
+    "seed": 1,
+    "blocks": 5,
+    "first": "one",
+    "second": "two",
+    "practice": "three",
+    "preset": "calibrated",
+}
 
 
 @pytest.fixture

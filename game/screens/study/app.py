@@ -1,0 +1,160 @@
+"""The program a participant is in, from login to the last page; there is no way out of it into
+anything else."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from pathlib import PurePath
+from typing import ClassVar
+
+from textual import events, work
+from textual.app import App
+from textual.geometry import Size
+from textual.screen import Screen
+
+from game.errors import AnaError
+from game.screens.dialogs import Question
+from game.screens.mission import Failed, Finished
+from game.screens.signals import lead_out
+from game.screens.study.base import Frame
+from game.screens.study.mission import StudyMission
+from game.screens.study.pages import PageScreen
+from game.screens.study.participant import ScreenParticipant
+from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits, terminal
+from game.screens.theme import THEMES, theme_name
+from game.study.conduct import conduct
+from game.study.folder import Identity, Study
+from game.study.lock import SessionBusy, SessionLock, take_over
+from game.study.session import StudySession, open_session
+from game.study.texts import filled
+
+STATUS_TROUBLE = 2
+
+
+class StudyApp(App[None], inherit_bindings=False):
+    """One participant's session on this terminal."""
+
+    CSS_PATH: ClassVar[list[str | PurePath]] = [
+        "../styles/base.tcss",
+        "../styles/mission.tcss",
+        "../styles/pages.tcss",
+        "study.tcss",
+    ]
+    ENABLE_COMMAND_PALETTE = False
+
+    def __init__(self, study: Study, identity: Identity) -> None:
+        theme = theme_name(os.environ)
+        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
+        for known in THEMES:
+            self.register_theme(known)
+        self.theme = theme
+        self.study = study
+        self.identity = identity
+        self.frame = Frame(study.settings.screen, study.texts.words)
+        self.session: StudySession | None = None
+        self.live: StudyMission | None = None
+        self.mission_over: asyncio.Future[bool] | None = None
+        self.failure: AnaError | None = None
+
+    def on_mount(self) -> None:
+        lead_out(self._note_signal, self._leave)
+        self.screen_change_signal.subscribe(self, self._screen_changed)
+        self._lead()
+
+    @work(exit_on_error=True)
+    async def _lead(self) -> None:
+        try:
+            await self._take_part()
+        except AnaError as error:
+            self.failure = error
+            page = filled(self.study.texts.words.trouble, problem=str(error))
+            await self.push_screen_wait(PageScreen(self.frame, page))
+            self.exit(return_code=STATUS_TROUBLE)
+        else:
+            self.exit()
+
+    async def _take_part(self) -> None:
+        home = self.study.home(self.identity)
+        silent_ms = None
+        try:
+            lock = SessionLock(home)
+        except SessionBusy as busy:
+            if not await self.push_screen_wait(self._busy_question()):
+                return
+            silent_ms = busy.silent_ms
+            lock = await asyncio.to_thread(take_over, home)
+        try:
+            self.session = open_session(
+                self.study, self.identity, terminal(*self.size), silent_ms=silent_ms
+            )
+            rules = self.study.settings.mission
+            person = ScreenParticipant(self, self.frame, self.study.texts, rules)
+            if await conduct(self.session, person) == "stopped":
+                goodbye = self.study.texts.words.goodbye
+                await self.push_screen_wait(PageScreen(self.frame, goodbye))
+        finally:
+            lock.release()
+
+    def _busy_question(self) -> Question:
+        words = self.study.texts.words
+        return Question(words.busy.title, words.busy.body.strip(), yes=words.go_on, no=words.no)
+
+    # --- what breaks in -------------------------------------------------------------------------
+
+    def _note_signal(self, name: str) -> None:
+        told = self.live or self.session
+        if told is not None:
+            told.interrupt(name)
+
+    def _leave(self, status: int) -> None:
+        self.exit(return_code=status)
+
+    def on_finished(self, message: Finished) -> None:
+        if self.mission_over is not None and not self.mission_over.done():
+            self.mission_over.set_result(message.complete)
+
+    def on_failed(self, message: Failed) -> None:
+        if self.mission_over is not None and not self.mission_over.done():
+            self.mission_over.set_exception(message.error)
+
+    # --- the window -----------------------------------------------------------------------------
+
+    def on_resize(self, event: events.Resize) -> None:
+        self._cover_or_uncover(event.size)
+
+    def _screen_changed(self, _: Screen[object]) -> None:
+        self.call_later(self._cover_or_uncover, self.size)
+
+    def _cover_or_uncover(self, size: Size) -> None:
+        """While the terminal is too small for what is shown, cover it."""
+        enough = fits(size.width, size.height, self.frame.size)
+        covered = isinstance(self.screen, WindowTooSmall)
+        nothing_yet = len(self.screen_stack) == 1 or isinstance(self.screen, PreflightScreen)
+        if covered and enough:
+            self.pop_screen()
+        elif not (covered or enough or nothing_yet):
+            self.push_screen(WindowTooSmall(self.frame))
+
+    def uncover(self, screen: Screen[None]) -> None:
+        """Take away whatever stands over `screen`."""
+        while self.screen is not screen:
+            self.pop_screen()
+
+
+def run_session(study: Study, identity: Identity) -> int:
+    """Let a participant take part at this terminal; the exit status.
+
+    Raises AnaError for what the experimenter can mend.
+    """
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise AnaError(
+            "this is not a terminal",
+            mend="Run it in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
+        )
+    app = StudyApp(study, identity)
+    app.run(mouse=False)
+    if app.failure is not None:
+        raise app.failure
+    return app.return_code or 0

@@ -1,0 +1,128 @@
+"""What all screens of a session share: a stage of fixed size, and one way to stop taking part."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from time import monotonic
+from typing import ClassVar, Generic, TypeVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.content import Content
+from textual.screen import Screen
+from textual.widgets import Static
+
+from game.errors import AnaError
+from game.screens.dialogs import Question
+from game.screens.keyline import KeyLine
+from game.study.settings import ScreenSize
+from game.study.texts import Page, Words
+
+Result = TypeVar("Result")
+
+
+class Frame:
+    """What a study gives all its screens: their size and their small words."""
+
+    def __init__(self, size: ScreenSize, words: Words) -> None:
+        self.size = size
+        self.words = words
+
+    def stop_question(self) -> Question:
+        """Asks whether to stop taking part."""
+        words = self.words
+        return Question(words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no)
+
+
+class Stage(Vertical):
+    """Holds a screen's widgets, in the middle of the terminal and never larger than the study
+    says: a larger terminal has blank margins."""
+
+    def __init__(self, frame: Frame, id: str | None = None) -> None:
+        super().__init__(id=id, classes="stage")
+        self.styles.width = frame.size.columns
+        self.styles.height = frame.size.rows
+
+
+class Column(VerticalScroll):
+    """Text in the middle of the stage; it scrolls where a lab wrote more than fits."""
+
+    def __init__(self, *, wide: bool = False) -> None:
+        super().__init__(classes="wide" if wide else None)
+
+
+class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
+    """Dismissed with its result, with None when the participant stops taking part, or with the
+    error that keeps it from going on."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+c,ctrl+q", "stop", "Stop", id="study.stop", priority=True),
+    ]
+    DEAF_S: ClassVar[float] = 0.0
+    """For so long keys do nothing, where the last ones were meant for something else."""
+
+    def __init__(self, frame: Frame) -> None:
+        super().__init__()
+        self.frame = frame
+        self._deaf_until = 0.0
+        self._done = False
+
+    def compose(self) -> ComposeResult:
+        with Stage(self.frame):
+            yield from self.content()
+
+    def content(self) -> ComposeResult:
+        """The widgets on the stage."""
+        raise NotImplementedError
+
+    def on_mount(self) -> None:
+        self._deaf_until = monotonic() + self.DEAF_S
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        return monotonic() >= self._deaf_until
+
+    def finish(self, result: Result | AnaError | None) -> None:
+        """Leave this screen and whatever stands over it; the first result counts."""
+        if self._done:
+            return
+        self._done = True
+        while self.app.screen is not self:
+            self.app.pop_screen()
+        self.dismiss(result)
+
+    def show_keys(self, *keys: tuple[str, str]) -> None:
+        """Name the keys, and those that scroll where there is more than fits."""
+        scrolls = any(column.max_scroll_y > 0 for column in self.query(Column))
+        more = (("PgUp PgDn", self.frame.words.scroll),) if scrolls else ()
+        self.query_one(KeyLine).set_keys(*keys, *more)
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """What is recorded within is kept, or the session cannot go on."""
+        try:
+            yield
+        except AnaError as error:
+            self.finish(error)
+
+    def action_stop(self) -> None:
+        self.app.push_screen(self.frame.stop_question(), self._stopped)
+
+    def _stopped(self, stop: bool | None) -> None:
+        if stop:
+            self.finish(None)
+
+
+def heading(page: Page) -> Static:
+    """A page's title."""
+    return Static(page.title, classes="title", markup=False)
+
+
+def body(page: Page) -> Static:
+    """A page's text; what stands between two pairs of asterisks stands out."""
+    plain, *rest = page.body.strip().split("**")
+    parts: list[str | tuple[str, str]] = [plain]
+    for number, part in enumerate(rest):
+        parts.append((part, "bold $primary") if number % 2 == 0 else part)
+    return Static(Content.assemble(*parts), classes="body")

@@ -1,0 +1,41 @@
+"""The map to be memorised: the whole time, and then gone by itself."""
+
+from __future__ import annotations
+
+from textual.app import ComposeResult
+from textual.containers import Center
+
+from game.screens.study.base import Frame, StudyScreen
+from game.screens.study.planmap import PlanMap
+from game.screens.study.timed import TICK_S, TimeLine
+from game.study.tasks import Memorising
+
+
+class MemoriseScreen(StudyScreen[bool]):
+    """Shows the map until the exposure is over."""
+
+    def __init__(self, frame: Frame, title: str, task: Memorising) -> None:
+        super().__init__(frame)
+        self._exposure = task.exposure
+        self._map = PlanMap(task.building)
+        self._line = TimeLine(title, frame.words.left, task.exposure.limit_ms)
+
+    def content(self) -> ComposeResult:
+        yield self._line
+        with Center(classes="middle"):
+            yield self._map
+
+    def on_mount(self) -> None:
+        self.call_after_refresh(self._begin)
+
+    def _begin(self) -> None:
+        self._exposure.begin()
+        self._tick()
+        self.set_interval(TICK_S, self._tick)
+
+    def _tick(self) -> None:
+        with self.kept():
+            self._exposure.tick()
+            self._line.show(self._exposure.left_ms)
+            if self._exposure.over:
+                self.finish(True)

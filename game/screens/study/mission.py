@@ -1,0 +1,72 @@
+"""A mission of a study: the mission screen at the study's size, without pause, and left only for
+good reason."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+
+from game.screens.live import LiveMission, PacedClock
+from game.screens.mission import MissionScreen
+from game.screens.study.base import Frame, Stage
+from game.screens.study.timed import TICK_S
+from game.session.play import JOURNAL
+from game.study.tasks import Playing
+
+
+class StudyMission(LiveMission):
+    """A live mission in the journal of a session, which outlives it."""
+
+    def __init__(self, task: Playing) -> None:
+        super().__init__(task.begin(), task.journal, PacedClock(task.clock))
+        self.task = task
+
+    def end(self, *, interrupted: bool = False) -> None:
+        with self._whole():
+            self.task.leave(self.now_ms())
+            self.journal.flush_durably()
+
+    def tick(self) -> None:
+        """Record the exposure."""
+        with self._whole():
+            self.task.tick(self.now_ms())
+
+
+class StudyMissionScreen(MissionScreen):
+    """`q` asks whether to stop taking part, since a mission cannot be left alone."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+c,ctrl+q", "leave", id="study.stop", priority=True),
+    ]
+    live: StudyMission
+
+    def __init__(self, frame: Frame, live: StudyMission) -> None:
+        super().__init__(live, live.task.home / JOURNAL)
+        self.frame = frame
+
+    def compose(self) -> ComposeResult:
+        with Stage(self.frame):
+            yield self.view
+
+    def on_mount(self) -> None:
+        super().on_mount()
+        if self.live.task.goals is None:
+            self.set_interval(TICK_S, self._expose)
+
+    def _expose(self) -> None:
+        if not self._over:
+            with self.kept():
+                self.live.tick()
+
+    def refresh_view(self) -> None:
+        super().refresh_view()
+        if self.live.task.done:
+            self._finish()
+
+    def action_help(self) -> None:
+        """The keys are on the panel; the rest was taught in practice."""
+
+    def action_leave(self) -> None:
+        self.app.push_screen(self.frame.stop_question(), self._left)

@@ -1,0 +1,58 @@
+"""Pages to be read: plain, or with something to look at below."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.widget import Widget
+
+from game.screens.canvas import BLANK, Canvas
+from game.screens.glyphs import PLAIN, SOLID, STYLES
+from game.screens.howto import sign_rows, walking_rows
+from game.screens.keyline import KeyLine
+from game.screens.study.base import Column, Frame, StudyScreen, body, heading
+from game.study.texts import Page
+
+
+class PageScreen(StudyScreen[bool]):
+    """A page, until Enter is pressed; `below` stand under its text."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter", "go_on", id="page.go_on"),
+    ]
+    DEAF_S = 0.3
+
+    def __init__(self, frame: Frame, page: Page, *below: Widget) -> None:
+        super().__init__(frame)
+        self._page = page
+        self._below = below
+
+    def content(self) -> ComposeResult:
+        with Column():
+            yield heading(self._page)
+            yield body(self._page)
+            yield from self._below
+        yield KeyLine(id="keys")
+
+    def on_mount(self) -> None:
+        super().on_mount()
+        self.call_after_refresh(self.show_keys, ("Enter", self.frame.words.go_on))
+
+    def action_go_on(self) -> None:
+        self.finish(True)
+
+
+class Signs(Canvas):
+    """The keys of a mission and what stands on its screen, drawn as it draws them."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "key"}
+
+    def __init__(self, *, turning: bool) -> None:
+        super().__init__(classes="signs")
+        self._turning = turning
+
+    def on_mount(self) -> None:
+        glyphs = PLAIN if self.app.native_ansi_color else SOLID
+        self.draw([*walking_rows(turning=self._turning), BLANK, *sign_rows(glyphs)])

@@ -1,0 +1,144 @@
+"""Before anything begins: is the window large enough, and do its keys arrive?"""
+
+from __future__ import annotations
+
+import os
+from textwrap import wrap
+from typing import ClassVar, Literal
+
+from textual import events
+from textual.app import ComposeResult
+from textual.screen import ModalScreen
+from textual.widgets import Static
+
+from game.screens.canvas import BLANK, Canvas, Run
+from game.screens.keyline import KeyLine
+from game.screens.study.base import Column, Frame, StudyScreen, body, heading
+from game.session.records import Preflighted, Terminal
+from game.study.settings import ScreenSize
+
+ARROWS = {"up": "↑", "down": "↓", "left": "←", "right": "→", "space": "␣"}
+"""The keys that must arrive, and how each is shown."""
+
+COLUMNS = 74
+INDENT = 4
+
+Colours = Literal["none", "16", "256", "truecolor"]
+
+
+def colours() -> Colours:
+    """How many colours the terminal says it has."""
+    if os.environ.get("NO_COLOR"):
+        return "none"
+    if os.environ.get("COLORTERM", "").lower() in ("truecolor", "24bit"):
+        return "truecolor"
+    many = os.environ.get("TERM", "").endswith(("-256color", "-kitty"))
+    return "256" if many else "16"
+
+
+def terminal(columns: int, rows: int) -> Terminal:
+    """This terminal."""
+    return Terminal(os.environ.get("TERM", ""), os.environ.get("COLORTERM", ""), columns, rows)
+
+
+def fits(columns: int, rows: int, needed: ScreenSize) -> bool:
+    """Whether a window shows the whole stage."""
+    return columns >= needed.columns and rows >= needed.rows
+
+
+def size_text(frame: Frame, columns: int, rows: int) -> str:
+    """What is said of a window that is too small."""
+    needed = frame.size
+    return frame.words.too_small.replace("{size}", f"{columns} x {rows}").replace(
+        "{needed}", f"{needed.columns} x {needed.rows}"
+    )
+
+
+class PreflightScreen(StudyScreen[Preflighted]):
+    """Goes on by itself to ask for Enter once all is well."""
+
+    def __init__(self, frame: Frame) -> None:
+        super().__init__(frame)
+        self._pressed: set[str] = set()
+        self._checks = Checks()
+        self._keys = KeyLine(id="keys")
+
+    def content(self) -> ComposeResult:
+        words = self.frame.words
+        with Column():
+            yield heading(words.preflight)
+            yield body(words.preflight)
+            yield self._checks
+        yield self._keys
+
+    def on_resize(self, event: events.Resize) -> None:
+        self._show()
+
+    def on_mount(self) -> None:
+        super().on_mount()
+        self._show()
+
+    @property
+    def _enough(self) -> bool:
+        return fits(*self.app.size, self.frame.size)
+
+    @property
+    def _ready(self) -> bool:
+        return self._enough and self._pressed >= ARROWS.keys()
+
+    def _show(self) -> None:
+        words, size = self.frame.words, self.app.size
+        enough, all_keys = self._enough, self._pressed >= ARROWS.keys()
+        window = f"{words.size_fine}." if enough else size_text(self.frame, size.width, size.height)
+        first, *more = wrap(window, max(20, min(size.width, COLUMNS) - INDENT))
+        keys: list[Run] = [
+            (f" {sign} ", "arrived" if key in self._pressed else "awaited")
+            for key, sign in ARROWS.items()
+        ]
+        spaced = [run for key in keys for run in (key, (" ", ""))]
+        self._checks.draw(
+            [
+                (mark(enough), (first, "text")),
+                *(((" " * INDENT, ""), (line, "text")) for line in more),
+                BLANK,
+                (mark(all_keys), (words.keys_fine if all_keys else words.press_keys, "text")),
+                BLANK,
+                ((" " * INDENT, ""), *spaced),
+            ]
+        )
+        self._keys.set_keys(*((("Enter", words.go_on),) if self._ready else ()))
+
+    def on_key(self, event: events.Key) -> None:
+        if event.key in ARROWS:
+            self._pressed.add(event.key)
+            self._show()
+        elif event.key == "enter" and self._ready:
+            self.finish(
+                Preflighted(terminal(*self.app.size), colours(), keys_work=True, enough=True)
+            )
+
+
+def mark(good: bool) -> Run:
+    """Before a check: done, or still to be done."""
+    return (" ✓  ", "good") if good else (" ·  ", "quiet")
+
+
+class Checks(Canvas):
+    """What was looked at."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {"text", "good", "quiet", "arrived", "awaited"}
+
+
+class WindowTooSmall(ModalScreen[None]):
+    """Covers everything while the window is smaller than the study's screen."""
+
+    def __init__(self, frame: Frame) -> None:
+        super().__init__()
+        self._frame = frame
+        self._text = Static(markup=False)
+
+    def compose(self) -> ComposeResult:
+        yield self._text
+
+    def on_resize(self, event: events.Resize) -> None:
+        self._text.update(size_text(self._frame, event.size.width, event.size.height))

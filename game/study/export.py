@@ -1,0 +1,232 @@
+"""A study as a Psych-DS dataset: tidy tables, codebook, instruments and raw journals.
+
+The same study gives the same bytes: no times of export, everything in order. Sessions of different
+modes never share a file. What participants wrote in their own words stands in a file of its own,
+and is taken out of the raw journals.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tomllib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from game import __version__
+from game.session.gather import transcripts
+from game.session.play import JOURNAL
+from game.session.reader import Transcript, read_file
+from game.session.rows import Row
+from game.session.tables import ROW_TYPES, Tables, combined, session_tables
+from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, StudyError
+from game.study.ledger import Ledger, Mode, ending_of, is_closed
+from game.study.psychds import (
+    IGNORE_FILES,
+    IGNORED,
+    DatasetNotes,
+    codebook_page,
+    codebook_table,
+    description,
+    file_name,
+    table_text,
+)
+from game.study.settings import read_settings
+
+DATASET = "dataset.toml"
+"""Where a lab may put its `DatasetNotes`, in the study folder."""
+
+DESCRIPTION = "dataset_description.json"
+APART = "identifying"
+FREE_TEXT = "freetext"
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What was written: how many sessions and rounds of each mode; `unblinded` tells that the
+    study is open and the ledger now says that its allocation was looked at."""
+
+    sessions: dict[Mode, int]
+    rounds: dict[Mode, int]
+    unblinded: bool
+
+
+def export_study(folder: Path, out: Path, modes: Sequence[Mode] = ("live",)) -> Exported:
+    """Write the dataset of the study in `folder` to `out`, replacing an earlier export there.
+
+    Live data of a study that is not closed unblind whoever reads them: the ledger records it.
+    Raises StudyError where `out` is something else, JournalError for a journal that cannot be
+    read; nothing is changed then.
+    """
+    ledger = Ledger(folder / LEDGER)
+    settings, _ = read_settings(folder / SETTINGS)
+    entries = ledger.entries()
+    found: dict[Mode, Tables] = {}
+    files: dict[str, bytes] = {}
+    for mode in dict.fromkeys(modes):
+        sessions = [
+            transcript
+            for transcript in transcripts(folder, mode)
+            if ending_of(entries, transcript.started.participant, mode) != "withdrawn"
+        ]
+        found[mode] = combined(map(session_tables, sessions))
+        for transcript in sessions:
+            raw = f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"
+            files[raw] = without_free_text(_lines_read(transcript))
+    files |= _described(folder, settings.name, found)
+    _check_target(folder, out, files)
+    unblinds = "live" in found and not is_closed(entries)
+    if unblinds:
+        ledger.unblind("ana study export")
+    _replace(out, files)
+    return Exported(
+        sessions={mode: len(tables.participants) for mode, tables in found.items()},
+        rounds={mode: len(tables.rounds) for mode, tables in found.items()},
+        unblinded=unblinds,
+    )
+
+
+def _lines_read(transcript: Transcript) -> bytes:
+    """The lines of the journal that the transcript was made from; it may have grown since."""
+    lines = read_file(Path(transcript.source)).splitlines(keepends=True)
+    return b"".join(lines[: transcript.entries[-1].line])
+
+
+def without_free_text(journal: bytes) -> bytes:
+    """The journal with empty answers where a participant wrote in own words; a torn line that
+    may hold such an answer is left out."""
+    return b"".join(_without_answer(line) for line in journal.splitlines(keepends=True))
+
+
+def _without_answer(line: bytes) -> bytes:
+    if b"free_text" not in line:
+        return line
+    try:
+        fields = msgspec.json.decode(line)
+    except msgspec.DecodeError:
+        return b""
+    if fields.get("type") != "free_text":
+        return line
+    return msgspec.json.encode(fields | {"answer": ""}) + b"\n"
+
+
+def _described(folder: Path, name: str, found: dict[Mode, Tables]) -> dict[str, bytes]:
+    """All files but the raw journals, by their paths."""
+    texts = {
+        f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
+            table_text(row, tables.table(table))
+        )
+        for mode, tables in found.items()
+        for table, row in ROW_TYPES.items()
+    }
+    texts |= dict.fromkeys(IGNORE_FILES, IGNORED)
+    texts["README.md"] = _readme(name, found)
+    texts["documentation/codebook.md"] = codebook_page(ROW_TYPES)
+    texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
+    files = {path: text.encode() for path, text in texts.items()}
+    rows: Sequence[type[Row]] = tuple(ROW_TYPES.values())
+    files[DESCRIPTION] = description(name, _told(found), _notes(folder), rows)
+    for material in (SETTINGS, TEXTS, ITEMS):
+        files[f"materials/{material}"] = (folder / material).read_bytes()
+    return files
+
+
+def _told(found: dict[Mode, Tables]) -> str:
+    counts = ", ".join(
+        f"{len(tables.participants)} {mode} sessions" for mode, tables in found.items()
+    )
+    warning = " The simulated sessions were played by programs." if "simulated" in found else ""
+    return (
+        "Participants memorised the maps of two buildings, labelled the rooms, and carried out a "
+        "rescue mission in each, once with a static and once with an adaptive instructor. "
+        f"Holds {counts}.{warning}"
+    )
+
+
+def _readme(name: str, found: dict[Mode, Tables]) -> str:
+    tables = "\n".join(
+        f"- `{table}`: {(row.__doc__ or '').split('.')[0].strip()}."
+        for table, row in ROW_TYPES.items()
+    )
+    return f"""# {name}
+
+{_told(found)} A Psych-DS dataset, written by ana {__version__}.
+
+- `data/`: tidy tables, one file a table and mode (`session-live`, `-pilot`, `-simulated`).
+- `data/{APART}/`: what participants wrote in their own words. It may identify them: look through
+  it, or delete the folder, before you share the dataset. The dataset stays valid without it.
+- `data/raw/`: the journals, from which everything here was made. In them the answers in own words
+  are empty; otherwise every finished line is as it was written. They hold the time of day.
+- `documentation/`: the codebook, to read and as a table.
+- `materials/`: the study's settings, and every text and question as the participants saw it.
+
+{tables}
+"""
+
+
+def _notes(folder: Path) -> DatasetNotes:
+    path = folder / DATASET
+    if not path.exists():
+        return DatasetNotes()
+    try:
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), DatasetNotes)
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        fields = ", ".join(DatasetNotes.__struct_fields__)
+        raise StudyError(
+            f"the notes on the dataset cannot be used: {error}",
+            place=str(path),
+            mend=f"It may have {fields}",
+        ) from error
+
+
+def _check_target(folder: Path, out: Path, files: dict[str, bytes]) -> None:
+    """Raise StudyError unless `out` is free or an earlier export and nothing else."""
+    if folder.resolve().is_relative_to(out.resolve()):
+        raise StudyError("the study itself is in there", place=str(out), mend=_CHOOSE)
+    if not out.exists():
+        return
+    if not out.is_dir():
+        raise StudyError("this is a file", place=str(out), mend=_CHOOSE)
+    for path in _files(out):
+        known = path.as_posix()
+        if (known not in files and path.parts[0] != "data") or not (out / DESCRIPTION).exists():
+            raise StudyError(f"{path} is not of an earlier export", place=str(out), mend=_CHOOSE)
+
+
+_CHOOSE = "Choose a new folder"
+
+
+def _files(root: Path) -> Iterator[Path]:
+    return (path.relative_to(root) for path in sorted(root.rglob("*")) if path.is_file())
+
+
+def _replace(out: Path, files: dict[str, bytes]) -> None:
+    """Put the files into `out`, whole or not at all."""
+    fresh, old = (out.with_name(f".{out.name}.{part}") for part in ("new", "old"))
+    try:
+        for leftover in (fresh, old):
+            shutil.rmtree(leftover, ignore_errors=True)
+        for path, data in sorted(files.items()):
+            _write(fresh / path, data)
+        if out.exists():
+            out.rename(old)
+        fresh.rename(out)
+    except OSError as error:
+        raise StudyError(
+            f"the dataset cannot be written ({error.strerror})",
+            place=str(out),
+            mend="Free some space, or choose a folder where you may write",
+        ) from error
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def _write(path: Path, data: bytes) -> None:
+    for folder in reversed((path.parent, *path.parent.parents)):
+        if not folder.exists():
+            folder.mkdir(mode=0o700)
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with os.fdopen(descriptor, "wb") as file:
+        file.write(data)

@@ -1,0 +1,135 @@
+"""What makes a folder of tables a Psych-DS dataset: names, description, codebook.
+
+The rules are those of https://psychds-docs.readthedocs.io (rules and conventions): data files are
+called `key-value_key-value_data.csv` with the official keys and alphanumeric values, and
+`variableMeasured` of `dataset_description.json` lists exactly the columns of all of them.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from inspect import getdoc
+from typing import Any
+
+import msgspec
+
+from game.session.columns import Column, cells, columns
+from game.session.rows import Row
+
+IGNORED = "data/raw/\n"
+IGNORE_FILES = (".psychds-ignore", ".psychdsignore")
+"""Validators of different age read the one or the other."""
+
+
+class DatasetNotes(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What only the lab knows of its dataset, in its own words; all of it may be left out."""
+
+    description: str = ""
+    authors: tuple[str, ...] = ()
+    license: str = ""
+    citation: str = ""
+    keywords: tuple[str, ...] = (
+        "human-AI teaming",
+        "adaptive assistance",
+        "navigation instructions",
+    )
+
+
+def file_name(study: str, mode: str, table: str) -> str:
+    """The name of a table's file: `study-..._session-..._description-..._data.csv`."""
+    return f"study-{alphanumeric(study)}_session-{mode}_description-{table}_data.csv"
+
+
+def alphanumeric(words: str) -> str:
+    """Words as one value of a file name: plain letters and digits, `study` if none are left."""
+    plain = unicodedata.normalize("NFKD", words).encode("ascii", "ignore").decode()
+    parts = re.findall(r"[A-Za-z0-9]+", plain)
+    return "".join(part[0].upper() + part[1:] for part in parts) or "study"
+
+
+def table_text(row: type[Row], rows: Iterable[Row]) -> str:
+    """A table as CSV with a header."""
+    return _csv([column.name for column in columns(row)], (list(cells(one)) for one in rows))
+
+
+def all_columns(tables: Iterable[type[Row]]) -> dict[str, Column]:
+    """The columns of all tables by name, in order of first appearance."""
+    found: dict[str, Column] = {}
+    for row in tables:
+        for column in columns(row):
+            found.setdefault(column.name, column)
+    return found
+
+
+def description(name: str, told: str, notes: DatasetNotes, tables: Iterable[type[Row]]) -> bytes:
+    """dataset_description.json; `told` is what the dataset says of itself."""
+    content: dict[str, Any] = {
+        "@context": "http://schema.org/",
+        "@type": "Dataset",
+        "name": name,
+        "description": f"{notes.description} {told}".strip(),
+        "keywords": list(notes.keywords),
+        "variableMeasured": [_variable(column) for column in all_columns(tables).values()],
+    }
+    if notes.authors:
+        content["author"] = [{"@type": "Person", "name": author} for author in notes.authors]
+    for key in ("license", "citation"):
+        if getattr(notes, key):
+            content[key] = getattr(notes, key)
+    return msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n"
+
+
+def codebook_table(tables: Mapping[str, type[Row]]) -> str:
+    """The codebook as CSV: a row a table and column."""
+    header = ["table", "column", "meaning", "unit", "values", "may_be_empty"]
+    return _csv(
+        header,
+        (
+            [name, one.name, one.meaning, one.unit, one.values, "yes" if one.optional else "no"]
+            for name, row in tables.items()
+            for one in columns(row)
+        ),
+    )
+
+
+def codebook_page(tables: Mapping[str, type[Row]]) -> str:
+    """The codebook to be read, in Markdown."""
+    parts = [
+        "# Codebook\n\nAn empty cell means that there is nothing to tell: not asked, not answered, "
+        "not reached. Line breaks within a text are written as spaces. Times of a mission count "
+        "from its start.\n\n"
+    ]
+    for name, row in tables.items():
+        parts.append(f"## {name}\n\n{_paragraphs(getdoc(row) or '')}\n\n")
+        parts.append("| column | meaning | unit | values |\n|---|---|---|---|\n")
+        for one in columns(row):
+            values = f"{one.values}; may be empty" if one.optional else one.values
+            cells_ = (f"`{one.name}`", one.meaning, one.unit, values)
+            parts.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells_) + " |\n")
+        parts.append("\n")
+    return "".join(parts)
+
+
+def _variable(column: Column) -> dict[str, str]:
+    variable = {
+        "@type": "PropertyValue",
+        "name": column.name,
+        "description": f"{column.meaning} Values: {column.values}.",
+    }
+    return variable | ({"unitText": column.unit} if column.unit else {})
+
+
+def _paragraphs(text: str) -> str:
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in text.split("\n\n"))
+
+
+def _csv(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return out.getvalue()

@@ -1,0 +1,444 @@
+"""A participant at the screens: every phase, leaving and coming back, and what must not happen."""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+import sys
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+from textual.pilot import Pilot
+from textual.screen import Screen
+
+from game.screens.dialogs import Question
+from game.screens.study.app import StudyApp
+from game.screens.study.base import StudyScreen
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.memorise import MemoriseScreen
+from game.screens.study.mission import StudyMissionScreen
+from game.screens.study.pages import PageScreen, Signs
+from game.screens.study.preflight import PreflightScreen, WindowTooSmall
+from game.screens.study.reason import ReasonScreen
+from game.screens.study.sliders import SlidersScreen
+from game.session.records import (
+    Exposed,
+    FreeText,
+    MissionAbandoned,
+    Paused,
+    PhaseEnded,
+    PreferenceGiven,
+    Preflighted,
+    QuestionnaireAnswer,
+    QuizAnswer,
+    QuizSubmitted,
+    SessionEnded,
+    TakenOver,
+)
+from game.session.sink import FileSink
+from game.study.folder import Study, open_study
+from game.study.lock import SessionBusy, SessionLock
+from game.study.protocol import Step
+from tests.study.people import P01, journal_of, rewind, small_study, take_part
+
+SIZE = (120, 40)
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    study = small_study(tmp_path_factory.mktemp("screens") / "finished")
+    assert take_part(study)[0] == "over"
+    return study
+
+
+@pytest.fixture
+def study(finished: Study, tmp_path: Path) -> Study:
+    shutil.copytree(finished.folder, tmp_path / "study")
+    return open_study(tmp_path / "study")
+
+
+@pytest.fixture(autouse=True)
+def _hearing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Screens listen at once."""
+    for screen in (StudyScreen, *StudyScreen.__subclasses__()):
+        monkeypatch.setattr(screen, "DEAF_S", 0.0)
+
+
+@asynccontextmanager
+async def at(study: Study, step: Step | None = None) -> AsyncIterator[Pilot[None]]:
+    if step is not None:
+        rewind(study, step)
+    async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
+        yield pilot
+    await let_go(study)
+
+
+async def let_go(study: Study) -> None:
+    """Wait until the session's lock is free, as it is at once when a process ends."""
+    for _ in range(250):
+        with suppress(SessionBusy):
+            SessionLock(study.home(P01)).release()
+            return
+        await asyncio.sleep(0.02)
+    raise AssertionError("the lock is still held")
+
+
+async def until(pilot: Pilot[Any], kind: type[Screen[Any]], limit_s: float = 20.0) -> Any:
+    """Wait for a screen of this kind to be on top."""
+    for _ in range(round(limit_s / 0.02)):
+        if isinstance(pilot.app.screen, kind):
+            await pilot.pause()
+            return pilot.app.screen
+        await pilot.pause(0.02)
+    raise AssertionError(f"{pilot.app.screen} is shown, not {kind}")
+
+
+async def closed(pilot: Pilot[Any]) -> None:
+    """Wait for the program to end."""
+    for _ in range(500):
+        if pilot.app._exit:
+            return
+        await pilot.pause(0.02)
+    raise AssertionError("it goes on")
+
+
+def records(study: Study, kind: type, phase: str = "", segment: int | None = None) -> list[Any]:
+    return [
+        entry.record
+        for entry in journal_of(study).entries
+        if isinstance(entry.record, kind)
+        and phase in ("", entry.envelope.phase)
+        and segment in (None, entry.envelope.segment)
+    ]
+
+
+def shown(pilot: Pilot[Any]) -> str:
+    """All that stands on the screen."""
+    size = pilot.app.size
+    lines = pilot.app.screen._compositor.render_strips(size)
+    return "\n".join(strip.text for strip in lines)
+
+
+async def test_from_login_to_practice(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "new")
+    async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
+        await until(pilot, PreflightScreen)
+        await pilot.press("enter", "up", "down", "left", "right", "enter")
+        assert isinstance(pilot.app.screen, PreflightScreen)
+        await pilot.press("space", "enter")
+        await until(pilot, ChoiceScreen)
+        await pilot.press("enter")
+        assert isinstance(pilot.app.screen, ChoiceScreen)
+        assert not study.home(P01).joinpath("journal.jsonl").exists()
+        await pilot.press("down", "enter")
+        page = await until(pilot, PageScreen)
+        await pilot.press("enter")
+        await pilot.pause(0.05)
+        assert await until(pilot, PageScreen) is not page
+        assert pilot.app.screen.query(Signs)
+    (checked,) = records(study, Preflighted)
+    assert (checked.enough, checked.keys_work) == (True, True)
+    assert (checked.terminal.columns, checked.terminal.rows) == SIZE
+
+
+async def test_a_long_consent_can_be_read_and_answered(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "new")
+    path = study.folder / "texts.toml"
+    path.write_text(
+        path.read_text().replace("You must be 18", "On and on.\n\n" * 40 + "You must be 18")
+    )
+    async with StudyApp(open_study(study.folder), P01).run_test(size=SIZE) as pilot:
+        await until(pilot, PreflightScreen)
+        await pilot.press("up", "down", "left", "right", "space", "enter")
+        await until(pilot, ChoiceScreen)
+        await pilot.pause()
+        assert "PgDn" in shown(pilot)
+        assert study.texts.consent.agree not in shown(pilot)
+        await pilot.press("down")
+        await pilot.pause()
+        assert study.texts.consent.agree in shown(pilot)
+        await pilot.press("enter")
+        await until(pilot, PageScreen)
+
+
+async def test_declining(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "new")
+    async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
+        await until(pilot, PreflightScreen)
+        await pilot.press("up", "down", "left", "right", "space", "enter")
+        await until(pilot, ChoiceScreen)
+        await pilot.press("up", "enter")
+        await until(pilot, PageScreen)
+        assert study.texts.declined.title in shown(pilot)
+        await pilot.press("enter")
+        await closed(pilot)
+    assert len(journal_of(study).entries) == 3
+
+
+async def test_a_small_window_is_asked_to_grow(study: Study) -> None:
+    async with at(study, Step("sliders", 1)) as pilot:
+        sliders = await until(pilot, SlidersScreen)
+        await pilot.resize_terminal(100, 30)
+        await until(pilot, WindowTooSmall)
+        assert "100 x 30" in shown(pilot)
+        assert "120 x 40" in shown(pilot)
+        await pilot.press("7")
+        await pilot.resize_terminal(140, 50)
+        assert await until(pilot, SlidersScreen) is sliders
+    assert not records(study, QuestionnaireAnswer, "sliders")
+
+
+async def test_coming_back_in_a_small_window(study: Study) -> None:
+    rewind(study, Step("sliders", 1))
+    async with StudyApp(study, P01).run_test(size=(80, 24)) as pilot:
+        await until(pilot, WindowTooSmall)
+        await pilot.resize_terminal(*SIZE)
+        await until(pilot, SlidersScreen)
+    await let_go(study)
+
+
+async def test_preflight_waits_for_a_window_large_enough(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "new")
+    async with StudyApp(study, P01).run_test(size=(80, 24)) as pilot:
+        await until(pilot, PreflightScreen)
+        await pilot.press("up", "down", "left", "right", "space", "enter")
+        assert "80 x 24" in shown(pilot)
+        assert "120 x 40" in shown(pilot)
+        await pilot.resize_terminal(*SIZE)
+        assert isinstance(pilot.app.screen, PreflightScreen)
+        await pilot.press("enter")
+        await until(pilot, ChoiceScreen)
+
+
+async def test_a_larger_window_has_blank_margins(study: Study) -> None:
+    async with at(study, Step("sliders", 1)) as pilot:
+        await until(pilot, SlidersScreen)
+        await pilot.resize_terminal(160, 50)
+        await pilot.pause()
+        lines = shown(pilot).split("\n")
+        assert not "".join(line[:20] + line[140:] for line in lines).strip()
+        assert not "".join(lines[:5] + lines[45:]).strip()
+
+
+async def test_the_map_stays_for_its_whole_time_and_no_key_ends_it(study: Study) -> None:
+    async with at(study, Step("memorise", 2)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        memorise = await until(pilot, MemoriseScreen)
+        for name in ("Lobby", "Canteen", "Kitchen"):
+            assert name in shown(pilot)
+        await pilot.press("enter", "space", "escape", "q", "ctrl+d", "ctrl+z", "ctrl+p")
+        assert pilot.app.screen is memorise
+        await until(pilot, PageScreen)
+    (ended,) = records(study, PhaseEnded, "memorise", segment=1)
+    assert ended == PhaseEnded("completed", 5_000)
+    assert len(records(study, Exposed, "memorise", segment=1)) == 5
+
+
+async def test_labelling(study: Study) -> None:
+    async with at(study, Step("label", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        label = await until(pilot, LabelScreen)
+        first = label.room
+        await pilot.press(*first.name[:6].lower().replace(" ", "_").split("_")[0])
+        await pilot.press("enter")
+        assert label.room is not first
+        await pilot.press("left", "delete")
+        assert label.room is first
+        assert not label.labelling.given
+        await pilot.press("up", "enter")
+        await until(pilot, Question)
+        assert "20" in shown(pilot)
+        await pilot.press("y")
+        await until(pilot, PageScreen)
+    given = records(study, QuizAnswer, "label", segment=1)
+    assert [(answer.room, answer.answer) for answer in given] == [
+        (first.name, first.name),
+        (first.name, None),
+    ]
+    assert records(study, QuizSubmitted, "label", segment=1) == [QuizSubmitted(0, 20)]
+
+
+async def test_labelling_ends_by_itself_even_under_a_question(study: Study) -> None:
+    async with at(study, Step("label", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        label = await until(pilot, LabelScreen)
+        await pilot.press("enter", "ctrl+c")
+        await until(pilot, Question)
+        await until(pilot, PageScreen)
+        assert label not in pilot.app.screen_stack
+    (ended,) = records(study, PhaseEnded, "label", segment=1)
+    assert ended == PhaseEnded("timed_out", 6_000)
+
+
+async def test_a_name_belongs_to_one_room(study: Study) -> None:
+    async with at(study, Step("label", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        label = await until(pilot, LabelScreen)
+        first, second = label.labelling.rooms[:2]
+        name = label.labelling.names[0]
+        await pilot.press("enter")
+        assert label.labelling.given == {first.name: name}
+        await pilot.press("up", "enter")
+        assert label.labelling.given == {second.name: name}
+    taken, given = records(study, QuizAnswer, "label", segment=1)[-2:]
+    assert (taken.room, taken.answer) == (first.name, None)
+    assert (given.room, given.answer) == (second.name, name)
+
+
+async def test_a_mission_is_played_to_its_end(study: Study) -> None:
+    async with at(study, Step("mission", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        mission = await until(pilot, StudyMissionScreen)
+        await pilot.press("up", "p", "question_mark", "ctrl+p", "ctrl+z", "ctrl+backslash")
+        assert pilot.app.screen is mission
+        text = shown(pilot)
+        assert not any(word in text for word in ("C1", "C2", "C3", "static", "adaptive", "points"))
+        await pilot.press("q")
+        await until(pilot, Question)
+        await pilot.press("n")
+        assert pilot.app.screen is mission
+        await until(pilot, SlidersScreen)
+    (ended,) = records(study, PhaseEnded, "mission", segment=1)
+    assert ended == PhaseEnded("completed", 6_000)
+    assert not records(study, Paused)
+
+
+async def test_leaving_a_mission_ends_it_and_the_sliders_follow(study: Study) -> None:
+    async with at(study, Step("mission", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        await until(pilot, StudyMissionScreen)
+        await pilot.press("ctrl+c")
+        await until(pilot, Question)
+        await pilot.press("y")
+        await until(pilot, PageScreen)
+        assert study.texts.words.goodbye.title in shown(pilot)
+        await pilot.press("enter")
+        await closed(pilot)
+    assert records(study, MissionAbandoned, "mission")
+    assert records(study, SessionEnded) == [SessionEnded("quit")]
+    async with at(study) as pilot:
+        await until(pilot, SlidersScreen)
+    (ended,) = records(study, PhaseEnded, "mission")
+    assert ended.ending == "interrupted"
+
+
+async def test_sliders_stand_nowhere_until_moved(study: Study) -> None:
+    async with at(study, Step("sliders", 1)) as pilot:
+        sliders = await until(pilot, SlidersScreen)
+        await pilot.press(*["enter"] * 5)
+        assert isinstance(pilot.app.screen, SlidersScreen)
+        assert not records(study, QuestionnaireAnswer, "sliders", segment=1)
+        sliders.action_turn(-sliders._active)
+        await pilot.press("4", "2", "down", "end", "left", "down", "right", "pageup", "down")
+        await pilot.press("enter")
+        assert pilot.app.screen is sliders
+        await pilot.press("home", "enter")
+        await until(pilot, LikertScreen)
+    last = {a.item: a for a in records(study, QuestionnaireAnswer, "sliders", segment=1)}
+    by_place = sorted(last.values(), key=lambda answer: answer.place)
+    assert [answer.value for answer in by_place] == [42, 99, 60, 1]
+    assert {answer.item for answer in by_place} == {item.id for item in study.items.slider}
+
+
+async def test_answers_given_before_a_cut_are_still_there(study: Study) -> None:
+    async with at(study, Step("sliders", 1)) as pilot:
+        await until(pilot, SlidersScreen)
+        await pilot.press("7", "down", "8", "down")
+        await pilot.pause(0.1)
+    async with at(study) as pilot:
+        sliders = await until(pilot, SlidersScreen)
+        assert sorted(sliders._values.values()) == [7, 8]
+        await pilot.press("ctrl+c")
+        await until(pilot, Question)
+        await pilot.press("n")
+        await pilot.press("down", "down", "9", "enter", "9", "enter")
+        await until(pilot, LikertScreen)
+
+
+async def test_statements(study: Study) -> None:
+    async with at(study, Step("likert", 2)) as pilot:
+        likert = await until(pilot, LikertScreen)
+        await pilot.press("5", "enter", "left", "left", "9", "enter", "1")
+        await pilot.press("enter", "enter")
+        assert pilot.app.screen is likert
+        await pilot.press("right", "enter")
+        await until(pilot, ChoiceScreen)
+    last = {a.item: a for a in records(study, QuestionnaireAnswer, "likert", segment=1)}
+    assert [a.value for a in sorted(last.values(), key=lambda a: a.place)] == [5, 2, 1, 3]
+    assert all(answer.anchors == study.items.scale.answers for answer in last.values())
+
+
+async def test_preference_reason_and_the_end(study: Study) -> None:
+    async with at(study, Step("preference")) as pilot:
+        await until(pilot, ChoiceScreen)
+        assert "Instructor Amber" in shown(pilot)
+        await pilot.press("2", "enter")
+        await until(pilot, ReasonScreen)
+        await pilot.press(*"no q", "enter")
+        await until(pilot, PageScreen)
+        session = pilot.app.session  # type: ignore[attr-defined]
+        assert session.completion_code in shown(pilot)
+        assert records(study, SessionEnded) == [SessionEnded("finished")]
+        await pilot.press("enter")
+        await closed(pilot)
+    assert records(study, PreferenceGiven, segment=1)[0].preferred_round == 2
+    assert records(study, FreeText, segment=1)[0].answer == "no q"
+
+
+async def test_a_full_disk_is_told_and_nothing_goes_on(
+    study: Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rewind(study, Step("preference"))
+    write = FileSink.write
+
+    def full(sink: FileSink, lines: bytes) -> None:
+        if b'"preference"' in lines and b'"preferred_round"' in lines:
+            raise sink._failed(OSError(28, "No space left on device"))
+        write(sink, lines)
+
+    monkeypatch.setattr(FileSink, "write", full)
+    async with at(study) as pilot:
+        await until(pilot, ChoiceScreen)
+        await pilot.press("1", "enter")
+        await until(pilot, PageScreen)
+        assert "the disk is full" in shown(pilot)
+        await pilot.press("enter")
+        await closed(pilot)
+        assert pilot.app.return_code == 2
+    assert not records(study, PreferenceGiven)
+
+
+async def test_a_second_login_may_take_over(study: Study) -> None:
+    rewind(study, Step("sliders", 1))
+    program = (
+        "import sys, time; from pathlib import Path; from game.study.lock import SessionLock\n"
+        "lock = SessionLock(Path(sys.argv[1])); print('held', flush=True); time.sleep(60)"
+    )
+    other = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", program, str(study.home(P01)), stdout=asyncio.subprocess.PIPE
+    )
+    assert other.stdout is not None
+    await other.stdout.readline()
+    async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
+        await until(pilot, Question)
+        assert study.texts.words.busy.title in shown(pilot)
+        await pilot.press("n")
+        await closed(pilot)
+    assert other.returncode is None
+    async with at(study) as pilot:
+        await until(pilot, Question)
+        await pilot.press("y")
+        await until(pilot, SlidersScreen)
+    assert await other.wait() != 0
+    assert len(records(study, TakenOver)) == 1

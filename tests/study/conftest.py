@@ -1,0 +1,27 @@
+"""A study in which one scripted participant has finished."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from game.study.folder import Study, open_study
+from tests.study.people import small_study, take_part
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    """Not to be changed: take a copy."""
+    study = small_study(tmp_path_factory.mktemp("study") / "finished")
+    assert take_part(study)[0] == "over"
+    return study
+
+
+@pytest.fixture
+def copy(finished: Study, tmp_path: Path) -> Study:
+    """The finished study, to be changed."""
+    folder = tmp_path / "copy"
+    shutil.copytree(finished.folder, folder)
+    return open_study(folder)

@@ -1,0 +1,363 @@
+"""A whole session without a screen: what it records, and what becomes of one that is cut off."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from game.coach.records import CoachRecord, InstructionIssued, Level
+from game.session.errors import JournalError
+from game.session.missions import missions, strays
+from game.session.reader import Entry
+from game.session.records import (
+    Allocated,
+    Consented,
+    Debriefed,
+    Declined,
+    Exposed,
+    FreeText,
+    MissionStarted,
+    PhaseEnded,
+    PhaseStarted,
+    PracticeChecked,
+    PreferenceGiven,
+    QuestionnaireAnswer,
+    QuizAnswer,
+    QuizSubmitted,
+    Resumed,
+    SessionEnded,
+    SessionStarted,
+    StudyAmended,
+)
+from game.session.sink import FileSink, MemorySink
+from game.session.verify import verify
+from game.study.conduct import instructor
+from game.study.folder import Study, open_study
+from game.study.ledger import SessionEnded as LedgerEnded
+from game.study.ledger import SlotTaken, ending_of
+from game.study.protocol import TIMELINE, Step, progress
+from game.world.events import Acted
+from tests.study.people import MISSION_MS, P01, journal_of, small_study, take_part
+
+
+def step_of(entry: Entry) -> Step:
+    return Step(entry.envelope.phase, entry.envelope.round)
+
+
+def records(study: Study, *kinds: type) -> list[Any]:
+    return [e.record for e in journal_of(study).entries if isinstance(e.record, kinds)]
+
+
+def endings(study: Study) -> dict[Step, str]:
+    return {
+        step_of(entry): entry.record.ending
+        for entry in journal_of(study).entries
+        if isinstance(entry.record, PhaseEnded)
+    }
+
+
+def answers(entries: tuple[Entry, ...]) -> dict[tuple[Step, str], object]:
+    """Every answer by its step and question."""
+    found: dict[tuple[Step, str], object] = {}
+    for entry in entries:
+        match entry.record:
+            case QuestionnaireAnswer(item=item, value=value):
+                found[step_of(entry), item] = value
+            case QuizAnswer(room=room, answer=answer):
+                found[step_of(entry), room] = answer
+            case PreferenceGiven(item=item, preferred_round=preferred):
+                found[step_of(entry), item] = preferred
+            case FreeText(item=item, answer=text):
+                found[step_of(entry), item] = text
+    return found
+
+
+def test_a_session_passes_every_phase_in_order_and_ends(finished: Study) -> None:
+    entries = journal_of(finished).entries
+    ended = [step_of(entry) for entry in entries if isinstance(entry.record, PhaseEnded)]
+    assert ended == list(TIMELINE)
+    assert set(endings(finished).values()) == {"completed"}
+    assert entries[-1].record == SessionEnded("finished")
+    assert progress((entry.envelope, entry.record) for entry in entries).over
+    ledger = finished.ledger.entries()
+    assert ending_of(ledger, "P01", "pilot") == "finished"
+
+
+def test_all_that_is_asked_is_answered(finished: Study) -> None:
+    asked = records(finished, QuestionnaireAnswer)
+    count = Counter(answer.item for answer in asked)
+    items = finished.items
+    asked_twice = [slider.id for slider in items.slider] + [it.id for it in items.statement]
+    assert all(count[item] == 2 for item in asked_twice)
+    assert all(count[check.id] == 1 for check in finished.items.check)
+    assert [submitted.asked for submitted in records(finished, QuizSubmitted)] == [20, 20]
+    assert [submitted.right for submitted in records(finished, QuizSubmitted)] == [10, 10]
+    assert records(finished, PreferenceGiven)[0].preferred_round == 2
+    assert records(finished, FreeText)[0].answer == "clearer"
+
+
+def test_what_was_shown_is_in_the_journal(finished: Study) -> None:
+    (consented,) = records(finished, Consented)
+    assert finished.texts.consent.body.strip() in consented.text
+    assert finished.texts.consent.agree in consented.text
+    (started,) = records(finished, SessionStarted)
+    assert started.study == finished.copy
+    slider = finished.items.slider[0]
+    shown = [a for a in records(finished, QuestionnaireAnswer) if a.item == slider.id]
+    assert {(a.text, a.anchors) for a in shown} == {(slider.text, (slider.low, slider.high))}
+
+
+def test_the_design_cell_is_carried_out(finished: Study) -> None:
+    (allocated,) = records(finished, Allocated)
+    (taken,) = (e for e in finished.ledger.entries() if isinstance(e, SlotTaken))
+    assert allocated.memorise_ms == (5_000 if taken.cell.long_memorise else 3_000)
+    begun = [
+        entry.record
+        for entry in journal_of(finished).entries
+        if isinstance(entry.record, MissionStarted) and entry.envelope.phase == "mission"
+    ]
+    assert tuple(start.building for start in begun) == tuple(
+        finished.building(name).name for name in allocated.buildings
+    )
+    specs = [instructor(allocated, number, finished.settings.preset) for number in (1, 2)]
+    assert [start.coach for start in begun] == specs
+    assert {spec.kind for spec in specs} == {"ana", "static"}
+    assert specs[0].kind == ("ana" if taken.cell.adaptive_first else "static")
+    memorised = [
+        entry.record.exposure_ms
+        for entry in journal_of(finished).entries
+        if isinstance(entry.record, PhaseEnded) and entry.envelope.phase == "memorise"
+    ]
+    assert memorised == [allocated.memorise_ms] * 2
+
+
+def test_practice_shows_every_level_equally_and_never_adapts(finished: Study) -> None:
+    entries = [e for e in journal_of(finished).entries if e.envelope.phase == "practice"]
+    begun = [e.record for e in entries if isinstance(e.record, MissionStarted)]
+    assert Counter(start.coach.level for start in begun) == dict.fromkeys(Level, 2)
+    assert {start.coach.kind for start in begun} == {"static"}
+    assert records(finished, PracticeChecked) == [PracticeChecked(right=2, asked=4)]
+
+
+def test_a_slot_is_taken_after_practice(finished: Study) -> None:
+    kinds = [type(entry.record) for entry in journal_of(finished).entries]
+    assert kinds.index(Allocated) > kinds.index(PracticeChecked)
+    before = [e for e in journal_of(finished).entries if isinstance(e.record, PhaseStarted)]
+    first = next(e for e in before if e.envelope.phase == "memorise")
+    assert kinds.index(Allocated) < first.envelope.seq
+
+
+def test_timed_phases_are_exposed_every_second(finished: Study) -> None:
+    for phase, limit_ms in (("memorise", 5_000), ("mission", MISSION_MS)):
+        seen = [
+            entry.record.exposure_ms
+            for entry in journal_of(finished).entries
+            if isinstance(entry.record, Exposed)
+            and (entry.envelope.phase, entry.envelope.round) == (phase, 1)
+        ]
+        gaps = [later - earlier for earlier, later in zip([0, *seen], seen, strict=False)]
+        assert gaps
+        assert max(gaps) <= 1500
+        assert limit_ms - seen[-1] <= 1500
+
+
+def test_missions_of_the_journal_replay_to_the_same(finished: Study) -> None:
+    transcript = journal_of(finished)
+    assert len(missions(transcript)) == 8
+    assert not strays(transcript)
+    verdict = verify(finished.home(P01) / "journal.jsonl")
+    assert verdict.difference is None
+
+
+def test_two_sessions_of_one_participant_are_alike_and_every_page_is_whole(
+    finished: Study, tmp_path: Path
+) -> None:
+    again = small_study(tmp_path / "again")
+    _, person = take_part(again)
+    assert not any("{" in page.title + page.body for page in person.read_pages)
+    assert any("7 of them" in page.body for page in person.read_pages)
+    assert [e.record for e in journal_of(again).entries][1:] == [
+        e.record for e in journal_of(finished).entries
+    ][1:]
+
+
+def test_the_completion_code_is_plain_to_read(finished: Study) -> None:
+    (debriefed,) = records(finished, Debriefed)
+    assert len(debriefed.completion_code) == 8
+    assert not set(debriefed.completion_code) & set("01OIS5lo")
+
+
+def test_the_same_page_ends_a_session_that_is_over(copy: Study) -> None:
+    before = (copy.home(P01) / "journal.jsonl").read_bytes()
+    outcome, person = take_part(copy)
+    (code,) = (entry.completion_code for entry in records(copy, Debriefed))
+    assert outcome == "over"
+    assert len(person.read_pages) == 1
+    assert code in person.read_pages[0].body
+    assert (copy.home(P01) / "journal.jsonl").read_bytes() == before
+
+
+def test_who_declines_leaves_nothing_but_that(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+    outcome, person = take_part(study, agrees=False)
+    kept = [entry.record for entry in journal_of(study).entries]
+    assert outcome == "over"
+    assert person.read_pages == [study.texts.declined]
+    assert [type(record) for record in kept] == [SessionStarted, Declined, SessionEnded]
+    assert isinstance(kept[0], SessionStarted)
+    assert kept[0].terminal is None
+    assert not any(isinstance(entry, SlotTaken) for entry in study.ledger.entries())
+    assert isinstance(study.ledger.entries()[-1], LedgerEnded)
+
+
+def test_before_consent_nothing_is_written(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+
+    def closed(what: str) -> None:
+        if what == "agree":
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        take_part(study, moment=closed)
+    assert not study.home(P01).exists()
+
+
+@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0, 1))
+def test_a_session_killed_at_any_byte_goes_on_and_loses_nothing(
+    finished: Study, tmp_path_factory: pytest.TempPathFactory, share: float
+) -> None:
+    study = small_study(tmp_path_factory.mktemp("cut") / "study")
+    (study.folder / "ledger.jsonl").write_bytes(
+        (finished.folder / "ledger.jsonl").read_bytes().rpartition(b'{"type":"session_ended"')[0]
+    )
+    whole = (finished.home(P01) / "journal.jsonl").read_bytes()
+    path = study.home(P01) / "journal.jsonl"
+    path.parent.mkdir(parents=True)
+    path.write_bytes(whole[: round(share * len(whole))])
+    survived = b"\n" in path.read_bytes()
+    before = journal_of(study).entries if survived else ()
+
+    assert take_part(study)[0] == "over"
+
+    entries = journal_of(study).entries
+    assert entries[: len(before)] == before
+    assert entries[-1].record == SessionEnded("finished")
+    assert set(answers(entries)) == set(answers(journal_of(finished).entries))
+    assert answers(entries).items() >= answers(before).items()
+    ended = [step_of(entry) for entry in entries if isinstance(entry.record, PhaseEnded)]
+    assert ended == list(TIMELINE)
+    if survived and not isinstance(before[-1].record, SessionEnded):
+        assert isinstance(entries[len(before)].record, Resumed)
+    begun = progress((entry.envelope, entry.record) for entry in before).begun
+    cut = begun if begun is not None and begun.phase == "mission" else None
+    assert [s for s, ending in endings(study).items() if ending == "interrupted"] == (
+        [cut] if cut else []
+    )
+    assert verify(path).difference is None
+
+
+@pytest.mark.parametrize("phase", ["memorise", "label"])
+def test_a_timed_phase_goes_on_with_what_was_left(copy: Study, phase: str) -> None:
+    path = copy.home(P01) / "journal.jsonl"
+    lines = path.read_bytes().splitlines(keepends=True)
+    at = max(
+        number
+        for number, entry in enumerate(journal_of(copy).entries)
+        if isinstance(entry.record, Exposed | PhaseStarted) and step_of(entry) == (phase, 2)
+    )
+    path.write_bytes(b"".join(lines[: at + 1]))
+    cut = journal_of(copy).entries[-1].record
+    seen_ms = cut.exposure_ms if isinstance(cut, Exposed) else 0
+    take_part(copy)
+    resumed = [e for e in journal_of(copy).entries if e.envelope.segment == 1]
+    started = next(e.record for e in resumed if isinstance(e.record, PhaseStarted))
+    limit_ms = 6_000 if phase == "label" else 5_000
+    assert started == PhaseStarted(limit_ms - seen_ms, continued=seen_ms > 0)
+    if phase == "memorise":
+        ended = next(e.record for e in resumed if isinstance(e.record, PhaseEnded))
+        assert ended == PhaseEnded("completed", limit_ms)
+
+
+def test_one_who_stops_comes_back_to_where_they_were(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+
+    class Tired(Exception):
+        """Not the participant's way to stop."""
+
+    def leave(what: str) -> None:
+        if what == "prefer":
+            raise Tired
+
+    with pytest.raises(Tired):
+        take_part(study, moment=leave)
+    assert take_part(study)[0] == "over"
+    resumed = [e for e in journal_of(study).entries if e.envelope.segment == 1]
+    assert step_of(resumed[1]) == ("preference", 0)
+
+
+@pytest.mark.parametrize("labels", [True, False])
+def test_a_coach_knows_nothing_of_the_quiz(tmp_path: Path, finished: Study, labels: bool) -> None:
+    """Nor of the memorise time, the order or the other round: only the briefing reaches it."""
+    study = small_study(
+        tmp_path / "study", memorise_seconds="[1, 2]" if labels else "[3, 5]", label_seconds="9"
+    )
+    take_part(study, labels=labels)
+
+    def told(which: Study) -> list[object]:
+        return [
+            entry.record
+            for entry in journal_of(which).entries
+            if isinstance(entry.record, CoachRecord | Acted) and entry.envelope.phase == "mission"
+        ]
+
+    assert any(isinstance(record, InstructionIssued) for record in told(study))
+    assert told(study) == told(finished)
+
+
+def test_a_full_disk_stops_the_session(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+
+    class FullDisk(FileSink):
+        """Breaks when the label phase begins."""
+
+        def write(self, lines: bytes) -> None:
+            if b'"quiz_answer"' in lines:
+                raise JournalError("the disk is full", place=str(self.path))
+            super().write(lines)
+
+    given: list[str] = []
+    with pytest.raises(JournalError, match="the disk is full"):
+        take_part(study, sink=FullDisk.begin, moment=given.append)
+    assert given[-1] == "label"
+    assert not records(study, QuizAnswer)
+
+
+def test_a_changed_study_is_refused_until_it_is_amended(copy: Study) -> None:
+    ledger = copy.ledger
+    ledger.allocate("P09", "live")
+    path = copy.folder / "study.toml"
+    path.write_text(path.read_text().replace("label_seconds = 6", "label_seconds = 7"))
+    changed = open_study(copy.folder)
+    with pytest.raises(Exception, match="ana study amend"):
+        take_part(changed)
+    ledger.amend(changed.copy.sha256, "more time was needed")
+    journal = copy.home(P01) / "journal.jsonl"
+    lines = journal.read_bytes().splitlines(keepends=True)
+    journal.write_bytes(b"".join(lines[:-1]))
+    take_part(changed)
+    (amended,) = records(changed, StudyAmended)
+    assert (amended.study, amended.why) == (changed.copy, "more time was needed")
+
+
+def test_a_simulated_session_is_of_the_same_form(tmp_path: Path, finished: Study) -> None:
+    study = small_study(tmp_path / "study")
+    take_part(study, sink=MemorySink)
+    assert [e.record for e in journal_of(study).entries][1:] == [
+        e.record for e in journal_of(finished).entries
+    ][1:]

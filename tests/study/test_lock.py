@@ -1,0 +1,82 @@
+"""One process a session, and taking over from another."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from game.study.lock import LOCK, SessionBusy, SessionLock, take_over
+
+HOLDER = """
+import signal, sys, time
+from pathlib import Path
+from game.study.lock import SessionLock
+if sys.argv[2] == "deaf":
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+lock = SessionLock(Path(sys.argv[1]))
+print("held", flush=True)
+time.sleep(60)
+"""
+
+
+def holder(home: Path, kind: str) -> subprocess.Popen[bytes]:
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLDER, str(home), kind], stdout=subprocess.PIPE
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"held\n"
+    return process
+
+
+def test_a_second_one_is_told_who_holds_it(tmp_path: Path) -> None:
+    process = holder(tmp_path, "polite")
+    try:
+        with pytest.raises(SessionBusy, match="another window") as told:
+            SessionLock(tmp_path)
+        assert told.value.pid == process.pid
+        assert told.value.silent_ms < 60_000
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.parametrize(
+    ("kind", "ended_by"), [("polite", signal.SIGTERM), ("deaf", signal.SIGKILL)]
+)
+def test_taking_over_ends_the_other(
+    tmp_path: Path, kind: str, ended_by: signal.Signals, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("game.study.lock.PATIENCE_S", 0.5)
+    process = holder(tmp_path, kind)
+    lock = take_over(tmp_path)
+    assert process.wait(5) == -ended_by
+    with pytest.raises(SessionBusy) as told:
+        SessionLock(tmp_path)
+    assert told.value.pid == os.getpid()
+    lock.release()
+
+
+def test_a_lock_file_of_a_dead_process_holds_nobody_up(tmp_path: Path) -> None:
+    process = holder(tmp_path, "polite")
+    process.kill()
+    process.wait()
+    assert (tmp_path / LOCK).read_text().strip() == str(process.pid)
+    began = time.monotonic()
+    take_over(tmp_path).release()
+    SessionLock(tmp_path).release()
+    assert time.monotonic() - began < 1
+
+
+def test_a_pid_in_a_lock_that_nobody_holds_is_not_touched(tmp_path: Path) -> None:
+    bystander = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    (tmp_path / LOCK).write_text(f"{bystander.pid}\n")
+    take_over(tmp_path).release()
+    assert bystander.poll() is None
+    bystander.communicate(b"\n")
+    assert bystander.returncode == 0

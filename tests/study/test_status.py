@@ -1,0 +1,304 @@
+"""The status of a study: read while sessions write, and silent about allocation."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from game.session.play import JOURNAL
+from game.session.reader import read_journal
+from game.study.design import design_cell
+from game.study.dropout import drop_out
+from game.study.folder import Identity, Study, StudyError
+from game.study.ledger import LedgerError, Unblinded
+from game.study.lock import LOCK, SessionLock
+from game.study.roll import Roll, SessionStatus
+from game.study.status import ExclusionRule, StatusReader, breakdown
+from game.study.statustext import age
+from game.study.withdraw import withdraw
+from game.study_cli import group
+from tests.study.people import small_study, take_part
+
+P01, P02, P03 = (Identity("live", f"P0{number}") for number in (1, 2, 3))
+CELL_WORDS = ("slot", "complexity", "memorise_ms", "static_level", "adaptive", "C1", "C2", "C3")
+
+
+class Cut(Exception):
+    pass
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    return small_study(tmp_path / "study")
+
+
+def cut_at(study: Study, identity: Identity, what: str, times: int = 1, *, since: str = "") -> None:
+    """Let somebody take part until `what` has been done so many times since `since` was."""
+    left, counting = times, not since
+
+    def moment(now: str) -> None:
+        nonlocal left, counting
+        counting |= now == since
+        left -= counting and now == what
+        if left == 0:
+            raise Cut
+
+    with pytest.raises(Cut):
+        take_part(study, identity, moment=moment)
+
+
+def seen(study: Study, now: datetime | None = None) -> dict[str, SessionStatus]:
+    return {one.participant: one for one in Roll(study.folder).look(study.settings, now)}
+
+
+def command(study: Study, *arguments: str) -> Result:
+    return CliRunner().invoke(
+        group, ["status", str(study.folder), *arguments], standalone_mode=False
+    )
+
+
+def written_at(study: Study, identity: Identity) -> datetime:
+    last = read_journal(study.home(identity) / JOURNAL).entries[-1]
+    return datetime.fromisoformat(last.envelope.utc)
+
+
+def test_each_session_is_where_it_is(study: Study) -> None:
+    take_part(study, P01)
+    take_part(study, P02, agrees=False)
+    cut_at(study, P03, "label")
+    now = seen(study, written_at(study, P03) + timedelta(seconds=5))
+    assert (now["P01"].state, now["P01"].phase) == ("finished", "debrief")
+    assert (now["P02"].state, now["P02"].problems) == ("declined", ())
+    third = now["P03"]
+    assert (third.state, third.phase, third.round) == ("cut off", "label", 1)
+    assert third.limit_s == study.settings.label_seconds
+    assert third.silent_s == pytest.approx(5)
+    assert third.problems == ("its process is gone; the participant may log in again",)
+
+
+def test_who_resumes_is_counted(study: Study) -> None:
+    cut_at(study, P01, "label")
+    take_part(study, P01)
+    now = seen(study)["P01"]
+    assert (now.state, now.resumed) == ("finished", 1)
+
+
+def test_a_session_whose_process_lives_takes_part(study: Study) -> None:
+    cut_at(study, P01, "label")
+    lock = SessionLock(study.home(P01))
+    moment = written_at(study, P01)
+    assert seen(study, moment)["P01"].state == "taking part"
+    assert seen(study, moment + timedelta(seconds=3))["P01"].problems == ()
+    (problem,) = seen(study, moment + timedelta(seconds=30))["P01"].problems
+    assert "frozen" in problem
+    lock.release()
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    (study.home(P01) / LOCK).write_text(f"{gone.pid}\n")
+    assert seen(study, moment)["P01"].state == "cut off"
+
+
+def test_before_consent_there_is_only_somebody_there(study: Study) -> None:
+    SessionLock(study.home(P01))
+    (session,) = seen(study).values()
+    assert (session.state, session.phase, session.silent_s) == ("taking part", "consent", None)
+    (study.home(P01) / LOCK).write_text("")
+    assert seen(study) == {}
+
+
+def test_the_clock_of_memorising_would_tell_the_allocation_and_is_not_shown(study: Study) -> None:
+    cut_at(study, P01, "memorise", 3)
+    now = seen(study)["P01"]
+    assert (now.phase, now.clock_s, now.limit_s) == ("memorise", None, None)
+
+
+def test_the_clock_of_a_mission_is_what_was_played(study: Study) -> None:
+    missions = study.settings.mission.duration_ms // 1000
+    cut_at(study, P01, "play", 7, since="memorise")
+    now = seen(study)["P01"]
+    assert (now.phase, now.round, now.limit_s) == ("mission", 1, missions)
+    assert now.clock_s == 3
+
+
+def test_only_what_was_added_is_read_again(study: Study) -> None:
+    take_part(study, P01)
+    reader = Roll(study.folder)
+    first = reader.look(study.settings)
+    journal = study.home(P01) / JOURNAL
+    whole = journal.read_bytes()
+    journal.write_bytes(b"x" * len(whole))
+    assert [one.state for one in reader.look(study.settings)] == [one.state for one in first]
+    journal.write_bytes(whole[: whole.index(b"\n") + 1])
+    assert [one.state for one in reader.look(study.settings)] == ["cut off"]
+
+
+def test_a_line_that_is_being_written_is_waited_for(study: Study) -> None:
+    take_part(study, P01)
+    journal = study.home(P01) / JOURNAL
+    whole = journal.read_bytes()
+    cut = whole.rindex(b"\n", 0, -1) + 20
+    journal.write_bytes(whole[:cut])
+    lock = SessionLock(study.home(P01))
+    roll = Roll(study.folder)
+    (before,) = roll.look(study.settings, written_at(study, P01))
+    assert (before.state, before.problems) == ("taking part", ())
+    with journal.open("ab") as file:
+        file.write(whole[cut:])
+    (after,) = roll.look(study.settings)
+    assert after.state == "finished"
+    lock.release()
+
+
+def test_what_is_wrong_with_a_journal_is_told(study: Study) -> None:
+    take_part(study, P01)
+    take_part(study, P02)
+    journal = study.home(P01) / JOURNAL
+    lines = journal.read_bytes().splitlines(keepends=True)
+    journal.write_bytes(b"".join([*lines[:5], b'{"seq":\n', *lines[5:]]))
+    with (study.home(P02) / JOURNAL).open("ab") as file:
+        file.write(b'{"seq":9')
+    now = seen(study)
+    assert now["P01"].problems == ("1 lines of the journal cannot be read",)
+    assert now["P02"].problems == ("the journal ends in 8 torn bytes; they do not count",)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_a_journal_that_may_not_be_read_is_told(study: Study) -> None:
+    take_part(study, P01)
+    (study.home(P01) / JOURNAL).chmod(0)
+    assert "cannot be read" in StatusReader(study.folder).look().problems[0]
+
+
+def test_looking_changes_nothing(study: Study) -> None:
+    take_part(study, P01)
+    cut_at(study, P02, "label")
+
+    def state() -> dict[str, tuple[bytes, int]]:
+        return {
+            str(path): (path.read_bytes(), path.stat().st_mtime_ns)
+            for path in study.folder.rglob("*")
+            if path.is_file()
+        }
+
+    before = state()
+    assert command(study).exception is None
+    assert command(study, "--json").exception is None
+    assert state() == before
+
+
+def test_totals_are_of_live_sessions(study: Study) -> None:
+    take_part(study, P01)
+    take_part(study, P02, agrees=False)
+    cut_at(study, P03, "label")
+    take_part(study, Identity("pilot", "T01"))
+    withdraw(study, P01)
+    totals = StatusReader(study.folder).look().totals
+    assert (totals.places, totals.taken, totals.started) == (24, 2, 3)
+    assert (totals.finished, totals.declined, totals.withdrawn, totals.cut_off) == (0, 1, 1, 1)
+
+
+def test_a_drop_out_keeps_what_was_recorded(study: Study) -> None:
+    cut_at(study, P01, "label")
+    take_part(study, P02)
+    done = CliRunner().invoke(group, ["drop", str(study.folder), "P01"])
+    assert done.stdout == "P01 dropped out; the place stays empty (study.toml)\n"
+    assert StatusReader(study.folder).look().totals.dropped == 1
+    assert (study.home(P01) / JOURNAL).exists()
+    drop_out(study, P01)
+    with pytest.raises(StudyError, match="P02 has finished"):
+        drop_out(study, P02)
+    with pytest.raises(StudyError, match="holds no place"):
+        drop_out(study, P03)
+
+
+def test_nothing_tells_how_anybody_was_allocated(study: Study) -> None:
+    for identity in (P01, P02):
+        take_part(study, identity)
+    cut_at(study, P03, "memorise", 2)
+    told = command(study, "--json").stdout + command(study).stdout
+    assert [word for word in CELL_WORDS if word in told] == []
+    assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
+
+
+def test_unblinding_leaves_its_trace_before_it_tells(study: Study) -> None:
+    for identity in (P01, P02):
+        take_part(study, identity)
+    told = json.loads(command(study, "--json", "--unblind").stdout)
+    cells = {design_cell(study.settings.seed, "live", slot).code for slot in (0, 1)}
+    assert {one["cell"] for one in told["design_cells"]} == cells
+    assert {(one["allocated"], one["finished"]) for one in told["design_cells"]} == {(1, 1)}
+    assert {name for one in told["design_cells"] for name in one["excluded"]} == {
+        "disobeyed",
+        "other_victim",
+    }
+    (entry,) = (one for one in study.ledger.entries() if isinstance(one, Unblinded))
+    assert entry.why == "ana study status --unblind"
+
+
+def test_a_closed_study_tells_everything_and_takes_nobody(study: Study) -> None:
+    take_part(study, P01)
+    assert CliRunner().invoke(group, ["close", str(study.folder)]).exit_code == 0
+    assert "design_cells" in json.loads(command(study, "--json").stdout)
+    assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
+    with pytest.raises(LedgerError, match="closed"):
+        study.ledger.allocate("P05", "live")
+    assert study.ledger.allocate("P01", "live").slot == 0
+    assert study.ledger.allocate("T01", "pilot").slot == 0
+    study.ledger.close()
+    assert command(study).stdout.count("closed") == 1
+
+
+def test_exclusions_follow_the_rules_given(study: Study) -> None:
+    take_part(study, P01)
+    rules = [ExclusionRule("all", "Everybody.", "segments", 0)]
+    (cell,) = breakdown(study.folder, rules, "a test")
+    assert cell.excluded == {"all": 1}
+    lenient = [ExclusionRule("all", "Everybody.", "segments", 1)]
+    (cell,) = breakdown(study.folder, lenient, "a test")
+    assert cell.excluded == {"all": 0}
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(None, "-"), (0, "0 s"), (119, "119 s"), (120, "2 min"), (7_200, "2 h"), (200_000, "2 d")],
+)
+def test_an_age_is_told_in_its_unit(seconds: float | None, words: str) -> None:
+    assert age(seconds) == words
+
+
+def test_watching_follows_and_leaves_with_q(study: Study) -> None:
+    from tests.study.server import ANA
+    from tests.terminal import Terminal
+
+    take_part(study, P01)
+    follow: list[str | Path] = [ANA, "study", "status", study.folder, "--watch"]
+    with Terminal(follow, columns=100, rows=24) as terminal:
+        assert "P01" in terminal.wait_for("finished")
+        before = len(terminal.chunks)
+        terminal.read_for(1.5)
+        idle = sum(len(chunk.data) for chunk in terminal.chunks[before:])
+        cut_at(study, P02, "label")
+        terminal.wait_for("P02")
+        terminal.press("q")
+        assert terminal.wait() == 0
+    assert idle < 2_000
+
+
+def test_watching_needs_a_terminal_and_goes_alone(study: Study) -> None:
+    assert "not a terminal" in str(command(study, "--watch").exception)
+    assert "goes alone" in str(command(study, "--watch", "--json").exception)
+
+
+def test_now_is_the_wall_clock(study: Study) -> None:
+    take_part(study, P01)
+    silent = seen(study)["P01"].silent_s
+    assert silent is not None
+    expected = (datetime.now(UTC) - written_at(study, P01)).total_seconds()
+    assert silent == pytest.approx(expected, abs=60)
