@@ -3,53 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
 from typing import cast
 
 import click
 
 from game import __version__
 from game.errors import AnaError
+from game.lazy import LazyCommand, LazyGroup
 
 STATUS_BAD_INPUT = 2
 STATUS_INTERRUPTED = 130
-
-
-class LazyCommand(click.Command):
-    """A name and a summary, known at once; the command itself is imported when it is run.
-
-    `target` is `module:attribute`, where the attribute is a `click.Command` whose function returns
-    its exit status, None meaning 0.
-    """
-
-    def __init__(self, name: str, target: str, summary: str) -> None:
-        super().__init__(name, short_help=summary)
-        self.target = target
-
-    def load(self) -> click.Command:
-        """The command behind the name."""
-        module, _, attribute = self.target.partition(":")
-        return cast(click.Command, getattr(import_module(module), attribute))
-
-
-class LazyGroup(click.Group):
-    """A group that imports only the subcommand it is about to run, and lists them as given."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(self.commands)
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        name, command, rest = super().resolve_command(ctx, args)
-        return name, command.load() if isinstance(command, LazyCommand) else command, rest
 
 
 @click.group(
     cls=LazyGroup,
     commands=[
         LazyCommand("play", "game.play_cli:play", "Play a mission now."),
-        LazyCommand("watch", "game.play_cli:watch", "Watch a simulated rescuer play."),
+        LazyCommand("watch", "game.watch_cli:watch", "Watch a simulated rescuer play."),
         LazyCommand(
             "replay", "game.play_cli:replay_journal", "Replay a mission with the coach's thoughts."
         ),

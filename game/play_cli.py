@@ -1,4 +1,4 @@
-"""`ana play`, `ana watch` and `ana replay`: straight into a screen."""
+"""`ana play` and `ana replay`: straight into a screen."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ from game.coach.presets import PRESETS
 from game.coach.spec import parse_coach
 from game.errors import AnaError
 from game.places import sessions_folder
-from game.rescuers.catalogue import LITERAL, RESCUERS, character
-from game.screens.app import PlayOptions, run_play, run_replay, run_watch
+from game.screens.app import PlayOptions, run_play, run_replay
 from game.world import load_building
 from game.world.settings import MissionSettings
 
@@ -27,7 +26,7 @@ MINUTE_MS = 60_000
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
-def _mission_options(command: _Command) -> _Command:
+def mission_options(command: _Command) -> _Command:
     """The options that say which mission is played."""
     options = (
         click.option(
@@ -67,24 +66,10 @@ def _mission_options(command: _Command) -> _Command:
 
 
 @click.command(name="play")
-@_mission_options
+@mission_options
 def play(**given: Any) -> int:
     """Play a mission now."""
-    return run_play(_options(**given))
-
-
-@click.command(name="watch")
-@_mission_options
-@click.option(
-    "--rescuer",
-    default=LITERAL,
-    show_default=True,
-    metavar="NAME",
-    help=f"Who plays: {', '.join(RESCUERS)}.",
-)
-def watch(rescuer: str, **given: Any) -> int:
-    """Watch a simulated rescuer play a mission."""
-    return run_watch(replace(_options(**given), rescuer=character(rescuer).name))
+    return run_play(options_of(**given))
 
 
 @click.command(name="replay")
@@ -94,7 +79,7 @@ def replay_journal(journal: Path) -> int:
     return run_replay(journal)
 
 
-def _options(
+def options_of(
     building: str,
     coach: str,
     preset: str | None,
@@ -104,6 +89,7 @@ def _options(
     minutes: float | None,
     assignments: tuple[str, ...],
 ) -> PlayOptions:
+    """The mission that `mission_options` ask for. Raises AnaError, naming the option."""
     settings = assigned(MissionSettings(), assignments)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from game.cli import LazyCommand, LazyGroup
+from game.lazy import LazyCommand, LazyGroup
 
 _FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)

@@ -157,7 +157,7 @@ def in_a_terminal(args: list[str], keys: list[bytes], env: dict[str, str]) -> tu
     def type_keys() -> None:
         for key in keys:
             os.write(controller, key)
-            time.sleep(0.1)
+            time.sleep(0.4)
 
     typist = threading.Thread(target=type_keys)
     try:

@@ -20,7 +20,6 @@ from textual.screen import Screen
 from game.coach.spec import CoachSpec, parse_coach
 from game.errors import AnaError
 from game.places import sessions_folder
-from game.rescuers.catalogue import LITERAL, character
 from game.screens.dialogs import LEAST_SIZE, Notice, TooSmall
 from game.screens.live import LiveMission
 from game.screens.mission import Failed, Finished, LiveScreen, MissionScreen
@@ -57,7 +56,7 @@ class PlayOptions:
     settings: MissionSettings
     seed: int
     log_dir: Path
-    rescuer: str = LITERAL
+    rescuer: str = "literal"
 
 
 class AnaApp(App[None], inherit_bindings=False):
@@ -212,6 +211,7 @@ class AnaApp(App[None], inherit_bindings=False):
         return MissionScreen(LiveMission(run, journal), _path(journal))
 
     def _watching(self, options: PlayOptions) -> WatchScreen:
+        from game.rescuers.catalogue import character
         from game.screens.coachpanel import OverheardCoach
         from game.screens.watch import WatchScreen
 

@@ -1,0 +1,38 @@
+"""Commands that are known by name at once and imported when they are run."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import cast
+
+import click
+
+
+class LazyCommand(click.Command):
+    """A name and a summary, known at once; the command itself is imported when it is run.
+
+    `target` is `module:attribute`, where the attribute is a `click.Command` whose function returns
+    its exit status, None meaning 0.
+    """
+
+    def __init__(self, name: str, target: str, summary: str) -> None:
+        super().__init__(name, short_help=summary)
+        self.target = target
+
+    def load(self) -> click.Command:
+        """The command behind the name."""
+        module, _, attribute = self.target.partition(":")
+        return cast(click.Command, getattr(import_module(module), attribute))
+
+
+class LazyGroup(click.Group):
+    """A group that imports only the subcommand it is about to run, and lists them as given."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        name, command, rest = super().resolve_command(ctx, args)
+        return name, command.load() if isinstance(command, LazyCommand) else command, rest
