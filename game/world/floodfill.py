@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from array import array
 from typing import TypeAlias
 
@@ -14,24 +15,43 @@ UNREACHABLE = 0xFFFF
 Floodfill: TypeAlias = "array[int]"
 """Values by cell index (`Plan.index`)."""
 
+_BYTE = 8
+_DIGITS = bytes(code & 1 for code in range(256))
+
 
 def cost_to_go(plan: Plan, goal: Cell) -> Floodfill:
-    """The floodfill D_g of `goal`: moves from each cell to it, `UNREACHABLE` where none lead."""
-    values = array("H", [UNREACHABLE]) * (plan.width * plan.height)
-    neighbours = plan.neighbours
-    start = plan.index(goal)
-    values[start] = 0
-    frontier, distance = [start], 0
+    """The floodfill D_g of `goal`: moves from each cell to it, `UNREACHABLE` where none lead.
+
+    The cells at one distance are a mask, from which those one step farther follow at once. Binary
+    digit d of all distances together is a mask too: `digits[d]`.
+    """
+    unseen = plan.walkable_mask
+    frontier = plan.bit(goal)
+    digits = [0] * (2 * _BYTE)
+    distance = 0
     while frontier:
+        unseen &= ~frontier
+        for digit in range(distance.bit_length()):
+            if distance >> digit & 1:
+                digits[digit] |= frontier
+        frontier = plan.around(frontier) & unseen
         distance += 1
-        reached = []
-        for index in frontier:
-            for near in neighbours[index]:
-                if values[near] == UNREACHABLE:
-                    values[near] = distance
-                    reached.append(near)
-        frontier = reached
-    return values
+    size = len(plan.tiles)
+    never = (1 << size) - 1 & ~plan.walkable_mask | unseen
+    return _numbers([digit | never for digit in digits], size)
+
+
+def _numbers(digits: list[int], size: int) -> Floodfill:
+    """`size` numbers of 16 bits, of which binary digit d is set where `digits[d]` has a bit."""
+    lanes = bytearray(2 * size)
+    for lane in (0, 1):
+        number = 0
+        for place, mask in enumerate(digits[lane * _BYTE : (lane + 1) * _BYTE]):
+            spread = f"{mask:0{size}b}".encode()[::-1].translate(_DIGITS)
+            number |= int.from_bytes(spread) << place
+        first = lane if sys.byteorder == "little" else 1 - lane
+        lanes[first::2] = number.to_bytes(size)
+    return array("H", bytes(lanes))
 
 
 class Floodfills:

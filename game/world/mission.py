@@ -76,6 +76,8 @@ class Mission:
         self.heading = building.start_heading
         self.ended = False
         self.rescued = 0
+        self._last_due = Due(settings.duration_ms, Order.MISSION_END)
+        self._expiry_due = Due(settings.red_expiry_ms, Order.EXPIRY)
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
         self._site_at = {site.cell: site for site in building.victims}
         self._sight = sight_in(building.plan, settings.sight_radius)
@@ -104,12 +106,12 @@ class Mission:
         """What fires next by itself; None once the mission has ended."""
         if self.ended:
             return None
-        due = [Due(self.settings.duration_ms, Order.MISSION_END)]
-        if self._treated is not None:
-            due.append(Due(self._treatment_end_ms(), Order.TREATMENT_END))
+        due = self._last_due
         if self._reds_waiting:
-            due.append(Due(self.settings.red_expiry_ms, Order.EXPIRY))
-        return min(due)
+            due = min(due, self._expiry_due)
+        if self._treated is not None:
+            due = min(due, Due(self._treatment_end_ms(), Order.TREATMENT_END))
+        return due
 
     def pass_time(self, now_ms: int) -> None:
         """Let the clock run on to `now_ms`, where nothing is due before. Raises ValueError when

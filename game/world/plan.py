@@ -72,6 +72,19 @@ class Plan:
             yield self.cell(lowest.bit_length() - 1)
             mask ^= lowest
 
+    def around(self, mask: int) -> int:
+        """The mask of the four-neighbours of a mask's cells, walls included."""
+        east, west = self._not_at_the_side
+        width = self.width
+        return (mask & east) << 1 | (mask & west) >> 1 | mask << width | mask >> width
+
+    @cached_property
+    def _not_at_the_side(self) -> tuple[int, int]:
+        """The masks of all cells but the last, and all but the first, of each row."""
+        row = (1 << (self.width - 1)) - 1
+        east = sum(row << y * self.width for y in range(self.height))
+        return east, east << 1
+
     @cached_property
     def walkable_mask(self) -> int:
         return sum(1 << i for i, tile in enumerate(self.tiles) if tile != Tile.WALL)

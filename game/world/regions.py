@@ -66,12 +66,8 @@ def _connected(plan: Plan, mask: int) -> Iterator[Region]:
 
 def _spread(plan: Plan, seed: int, mask: int) -> int:
     """The cells of `mask` that are connected to `seed` within it."""
-    west_side = plan.mask((0, y) for y in range(plan.height))
-    east_side = west_side << plan.width - 1
     found = frontier = seed
     while frontier:
-        near = frontier << plan.width | frontier >> plan.width
-        near |= (frontier & ~east_side) << 1 | (frontier & ~west_side) >> 1
-        frontier = near & mask & ~found
+        frontier = plan.around(frontier) & mask & ~found
         found |= frontier
     return found
