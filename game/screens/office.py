@@ -31,8 +31,8 @@ def kinds(observation: Observation) -> bytes:
     size = len(plan.tiles)
     shades = (
         int.from_bytes(plan.tiles)
-        + 3 * _spread(observation.explored, size)
-        + 3 * _spread(observation.visible, size)
+        + 3 * int.from_bytes(plan.flags(observation.explored))
+        + 3 * int.from_bytes(plan.flags(observation.visible))
     )
     cells = bytearray(shades.to_bytes(size).translate(_ALIKE))
     for victim in observation.remembered:
@@ -111,15 +111,6 @@ def line_row(line: Line, camera: Camera, glyphs: GlyphSet) -> Row:
     if line.label is not None:
         runs = _lay_over(runs, line.label, 2 * left)
     return ((" " * (2 * max(0, -camera.left)), "dark"), *runs) if camera.left < 0 else tuple(runs)
-
-
-def _spread(mask: int, size: int) -> int:
-    """An integer whose byte i from the left is bit i of `mask`."""
-    digits = f"{mask:0{size}b}".encode()
-    return int.from_bytes(digits[::-1].translate(_DIGITS))
-
-
-_DIGITS = bytes(code & 1 for code in range(256))
 
 
 def _runs(line: bytes, glyphs: GlyphSet) -> Iterator[Run]:

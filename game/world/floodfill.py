@@ -16,7 +16,6 @@ Floodfill: TypeAlias = "array[int]"
 """Values by cell index (`Plan.index`)."""
 
 _BYTE = 8
-_DIGITS = bytes(code & 1 for code in range(256))
 
 
 def cost_to_go(plan: Plan, goal: Cell) -> Floodfill:
@@ -38,17 +37,17 @@ def cost_to_go(plan: Plan, goal: Cell) -> Floodfill:
         distance += 1
     size = len(plan.tiles)
     never = (1 << size) - 1 & ~plan.walkable_mask | unseen
-    return _numbers([digit | never for digit in digits], size)
+    return _numbers(plan, [digit | never for digit in digits])
 
 
-def _numbers(digits: list[int], size: int) -> Floodfill:
-    """`size` numbers of 16 bits, of which binary digit d is set where `digits[d]` has a bit."""
+def _numbers(plan: Plan, digits: list[int]) -> Floodfill:
+    """A number of 16 bits for every cell: its binary digit d is set where `digits[d]` has it."""
+    size = len(plan.tiles)
     lanes = bytearray(2 * size)
     for lane in (0, 1):
         number = 0
         for place, mask in enumerate(digits[lane * _BYTE : (lane + 1) * _BYTE]):
-            spread = f"{mask:0{size}b}".encode()[::-1].translate(_DIGITS)
-            number |= int.from_bytes(spread) << place
+            number |= int.from_bytes(plan.flags(mask)) << place
         first = lane if sys.byteorder == "little" else 1 - lane
         lanes[first::2] = number.to_bytes(size)
     return array("H", bytes(lanes))

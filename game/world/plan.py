@@ -22,6 +22,10 @@ class Tile(IntEnum):
     DOOR = 2
 
 
+_DIGITS = bytes(code & 1 for code in range(256))
+"""Translates the digits `0` and `1` of a text to the bytes 0 and 1."""
+
+
 @dataclass(frozen=True)
 class Plan:
     """A grid of `height` rows of `width` tiles, row by row in `tiles`."""
@@ -71,6 +75,10 @@ class Plan:
             lowest = mask & -mask
             yield self.cell(lowest.bit_length() - 1)
             mask ^= lowest
+
+    def flags(self, mask: int) -> bytes:
+        """One byte a cell, row by row: 1 where `mask` has it, else 0."""
+        return f"{mask:0{len(self.tiles)}b}".encode()[::-1].translate(_DIGITS)
 
     def around(self, mask: int) -> int:
         """The mask of the four-neighbours of a mask's cells, walls included."""
