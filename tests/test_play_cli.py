@@ -1,0 +1,81 @@
+"""The options of `ana play` and `ana watch`: each mistake is named with its mend."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from game.cli import main
+from game.errors import AnaError
+from game.play_cli import assigned, options_of
+from game.world.settings import MissionSettings
+
+GIVEN = {
+    "building": "harbour",
+    "coach": "ana",
+    "preset": None,
+    "level": None,
+    "seed": 7,
+    "log": None,
+    "minutes": None,
+    "assignments": (),
+}
+
+
+def test_what_is_given_becomes_the_mission() -> None:
+    given = {**GIVEN, "coach": "static", "level": 3, "minutes": 1.5, "log": Path("here")}
+    options = options_of(**given)  # type: ignore[arg-type]
+    assert options.building.name == "Harbour House"
+    assert options.spec.level == 3
+    assert options.settings.duration_ms == 90_000
+    assert (options.seed, options.log_dir) == (7, Path("here"))
+
+
+def test_any_setting_can_be_set() -> None:
+    wanted = ["moves_per_second=20", "controls=turn", "show_score=false", "treat_red_ms=4000"]
+    settings = assigned(MissionSettings(), wanted)
+    assert settings == MissionSettings(
+        moves_per_second=20, controls="turn", show_score=False, treat_red_ms=4000
+    )
+
+
+@pytest.mark.parametrize(
+    ("assignment", "told"),
+    [
+        ("moves_per_second", "not KEY=VALUE"),
+        ("move_per_second=3", "Did you mean moves_per_second"),
+        ("speed=3", "There are duration_ms"),
+        ("moves_per_second=fast", "cannot be 'fast'"),
+        ("moves_per_second=0", "between 0.5 and 100"),
+        ("controls=mouse", "compass or turn"),
+    ],
+)
+def test_a_bad_setting_is_named(assignment: str, told: str) -> None:
+    with pytest.raises(AnaError, match=told):
+        assigned(MissionSettings(), [assignment])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--building", "harbor"], "Did you mean harbour?"),
+        (["--coach", "anna"], "Did you mean ana?"),
+        (["--coach", "static", "--level", "4"], "Give 1, 2 or 3"),
+        (["--preset", "litteral"], "Did you mean literal?"),
+        (["--level", "1"], "--coach static"),
+        (["--minutes", "0"], "--minutes: duration_ms"),
+        (["--minuts", "1"], "--minutes"),
+        ([], "not a terminal"),
+    ],
+)
+def test_a_mistake_ends_with_status_2(
+    arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["play", *arguments]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_a_rescuer_is_known_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["watch", "--rescuer", "newcommer"]) == 2
+    assert "Did you mean newcomer?" in capsys.readouterr().err
