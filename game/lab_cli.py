@@ -71,7 +71,7 @@ def export(folder: Path, out: Path, modes: tuple[str, ...]) -> None:
 
     done = export_study(folder, out, cast("tuple[Mode, ...]", modes))
     for mode, sessions in done.sessions.items():
-        click.echo(f"{out}: {sessions} {mode} sessions, {done.rounds[mode]} rounds")
+        click.echo(f"{out}: {mode} sessions {sessions}, rounds {done.rounds[mode]}")
     if done.unblinded:
         click.echo("The study is open: the ledger records that it was unblinded.", err=True)
 
@@ -114,9 +114,9 @@ def sshd(folder: Path, account: str | None, port: int | None, keys: Path | None)
     if (port is None) is not (keys is None):
         raise click.UsageError("--port and --keys go together.")
     open_study(folder)
-    test_server = None if port is None or keys is None else LoopbackServer(port, keys)
-    user = account or (folder.owner() if test_server is None else getpass.getuser())
-    click.echo(configuration(folder, user, program(), test_server), nl=False)
+    loopback = None if port is None or keys is None else LoopbackServer(port, keys)
+    user = account or (folder.owner() if loopback is None else getpass.getuser())
+    click.echo(configuration(folder, user, program(), loopback), nl=False)
 
 
 @click.command()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from game.coach.cycle import Alpha
 from game.coach.goal_filter import GoalFilter, StepTable
-from game.coach.goals import instructed_prior, uniform_prior
+from game.coach.goals import Likelihood, instructed_prior, uniform_prior
 from game.coach.levels import LevelState, verdict
 from game.coach.model import Component, Comprehension, HumanModel, Learned
 from game.coach.presets import Preset
@@ -16,6 +17,17 @@ from game.world.events import Acted, Expired, MissionEvent, Rescued
 from game.world.floodfill import Floodfills
 from game.world.geometry import Cell
 from game.world.observation import Observation
+
+
+@lru_cache(maxsize=16)
+def step_table(
+    floodfills: Floodfills,
+    goals: tuple[tuple[str, Cell], ...],
+    likelihood: Likelihood,
+    beta: float,
+) -> StepTable:
+    """The table that all missions in one building share."""
+    return StepTable(floodfills, dict(goals), likelihood=likelihood, beta=beta)
 
 
 class ComprehensionLearner:
@@ -34,7 +46,8 @@ class ComprehensionLearner:
         self._goal: str | None = None
         self._position = building.start
         self._began_in: Room | None = None
-        table = StepTable(floodfills, self._waiting, likelihood=preset.likelihood, beta=preset.beta)
+        goals = tuple(self._waiting.items())
+        table = step_table(floodfills, goals, preset.likelihood, preset.beta)
         self._filter = GoalFilter(table, building.start, preset.window_moves)
 
     def goal_set(self, goal: str | None, position: Cell) -> None:

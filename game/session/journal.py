@@ -6,6 +6,7 @@ import asyncio
 import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Self
@@ -171,8 +172,13 @@ class Journal:
 
 def utc_text(utc_ms: int) -> str:
     """Milliseconds since 1970 as journals write them: 2000-01-01T00:00:00.000Z."""
-    moment = _EPOCH + timedelta(milliseconds=utc_ms)
-    return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    seconds, ms = divmod(utc_ms, 1000)
+    return f"{_second_text(seconds)}.{ms:03}Z"
+
+
+@lru_cache(maxsize=16)
+def _second_text(seconds: int) -> str:
+    return (_EPOCH + timedelta(seconds=seconds)).isoformat().removesuffix("+00:00")
 
 
 def interruption(before: Reading, now: Reading) -> Interruption | None:

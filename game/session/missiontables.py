@@ -19,6 +19,7 @@ from game.coach.records import (
 from game.session.missions import RecordedMission
 from game.session.rows import (
     ActionRow,
+    HeadingName,
     InstructionRow,
     InstructorKind,
     LevelName,
@@ -30,9 +31,16 @@ from game.session.rows import (
 from game.session.run import RunRecord
 from game.world.building import Building
 from game.world.events import Acted, Expired, Rescued
+from game.world.geometry import Heading
 from game.world.reading import parse_building
 
 _LEVELS: dict[Level, LevelName] = {Level.C1: "C1", Level.C2: "C2", Level.C3: "C3"}
+_HEADINGS: dict[Heading, HeadingName] = {
+    Heading.NORTH: "north",
+    Heading.EAST: "east",
+    Heading.SOUTH: "south",
+    Heading.WEST: "west",
+}
 
 
 def level_name(level: Level) -> LevelName:
@@ -42,11 +50,12 @@ def level_name(level: Level) -> LevelName:
 
 @dataclass(frozen=True)
 class MissionTables:
-    """The mission of one participant's round."""
+    """The mission of one participant's round, in what the study calls `building`."""
 
     participant: str
     round: int
     adaptivity: InstructorKind
+    building: str
     mission: RecordedMission
 
     @property
@@ -71,7 +80,7 @@ class MissionTables:
                     outcome=record.outcome,
                     x=record.position[0],
                     y=record.position[1],
-                    heading=_heading(record.heading.name),
+                    heading=_HEADINGS[record.heading],
                 )
 
     def victims(self) -> Iterator[VictimRow]:
@@ -84,12 +93,15 @@ class MissionTables:
         building = _building(self.mission.started.building_text)
         for site in building.victims:
             room = building.room_of(site)
-            fate, fate_ms = fates.get(site.id, ("waiting", None))
+            fate: VictimFate = "waiting"
+            fate_ms: int | None = None
+            if site.id in fates:
+                fate, fate_ms = fates[site.id]
             yield VictimRow(
                 participant=self.participant,
                 round=self.round,
                 adaptivity=self.adaptivity,
-                building=building.name,
+                building=self.building,
                 victim=site.id,
                 severity=site.severity,
                 room=None if room is None else room.name,
@@ -157,7 +169,7 @@ class MissionTables:
             reason=issued.reason,
             x=issued.position[0],
             y=issued.position[1],
-            heading=_heading(issued.heading.name),
+            heading=_HEADINGS[issued.heading],
             end_x=issued.end[0],
             end_y=issued.end[1],
             treats=issued.treats,

@@ -19,6 +19,7 @@ LevelName = Literal["C1", "C2", "C3"]
 InstructorKind = Literal["static", "adaptive"]
 OrderName = Literal["static_first", "adaptive_first"]
 StepEnding = Literal["completed", "timed_out", "interrupted", "void", "unfinished"]
+HeadingName = Literal["north", "east", "south", "west"]
 VictimFate = Literal["rescued", "expired", "waiting"]
 
 _Participant = Annotated[str, _("The participant's pseudonym.")]
@@ -28,7 +29,7 @@ _Adaptivity = Annotated[InstructorKind, _("The instructor of the round.")]
 _AtMs = Annotated[int, _("When it happened, in mission time.", "ms")]
 _Victim = Annotated[str, _("The victim's identifier in its building.")]
 _Goal = Annotated[str, _("The victim that the instructor led to.")]
-_Building = Annotated[str, _("The building of the round.")]
+_Building = Annotated[str, _("The building of the round, as the study's settings call it.")]
 _Item = Annotated[str, _("The identifier of the question.")]
 _Text = Annotated[str, _("The words as they were shown.")]
 _ResponseMs = Annotated[int, _("From when it was shown to the last answer.", "ms")]
@@ -43,9 +44,7 @@ _StartedUtc = Annotated[str, _("The wall clock when it began.")]
 _EndedUtc = _("The wall clock when it ended; of a session, at its last record so far.")
 _X = Annotated[int, _("Where the rescuer stood then, counted to the right from 0.", "cells")]
 _Y = Annotated[int, _("Where the rescuer stood then, counted down from 0.", "cells")]
-_Heading = Annotated[
-    Literal["north", "east", "south", "west"], _("Where the rescuer looked then.")
-]
+_Heading = Annotated[HeadingName, _("Where the rescuer looked then.")]
 
 _Complexity = Annotated[LevelName, _("The level of the static instructor, fixed by allocation.")]
 _Order = Annotated[OrderName, _("Which instructor came first.")]
@@ -267,7 +266,7 @@ class InstructionRow(Row, frozen=True):
     missteps_under: Annotated[int, _("Missteps while the instruction was in force.")]
     disobeyed_by: Annotated[
         Literal["repeat_misstep", "other_victim"] | None,
-        _("How the instruction was disobeyed, if it was."),
+        _("How the instruction was first disobeyed, if it was."),
     ]
 
 

@@ -135,14 +135,12 @@ def _described(folder: Path, name: str, found: dict[Mode, Tables]) -> dict[str, 
 
 
 def _told(found: dict[Mode, Tables]) -> str:
-    counts = ", ".join(
-        f"{len(tables.participants)} {mode} sessions" for mode, tables in found.items()
-    )
+    counts = ", ".join(f"{len(tables.participants)} {mode}" for mode, tables in found.items())
     warning = " The simulated sessions were played by programs." if "simulated" in found else ""
     return (
         "Participants memorised the maps of two buildings, labelled the rooms, and carried out a "
         "rescue mission in each, once with a static and once with an adaptive instructor. "
-        f"Holds {counts}.{warning}"
+        f"Sessions: {counts}.{warning}"
     )
 
 

@@ -10,20 +10,24 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 import msgspec
 
 from game.session.gather import SESSIONS
 from game.session.play import JOURNAL
 from game.session.records import (
+    Allocated,
+    Declined,
     Envelope,
+    Exposed,
     Interruption,
     Phase,
+    PhaseEnded,
     PhaseStarted,
-    Record,
     Resumed,
     SessionEnded,
+    Withdrawn,
 )
 from game.study.folder import MODES, Identity
 from game.study.lock import LOCK
@@ -36,8 +40,27 @@ State = Literal["taking part", "left", "cut off", "finished", "declined"]
 SILENCE_S = 10.0
 """A timed phase writes every second; one silent for longer hangs."""
 
-_envelope = msgspec.json.Decoder(Envelope)
-_record = msgspec.json.Decoder(Record)
+_Telling = (
+    PhaseStarted
+    | Exposed
+    | PhaseEnded
+    | Allocated
+    | Declined
+    | Withdrawn
+    | Interruption
+    | Resumed
+    | SessionEnded
+)
+"""The records that move a session on; of all others only the envelope is looked at."""
+
+
+class _Line(Envelope, frozen=True):
+    type: str
+
+
+_line = msgspec.json.Decoder(_Line)
+_telling = msgspec.json.Decoder(_Telling)
+_TAGS = frozenset(kind.__struct_config__.tag for kind in get_args(_Telling))
 
 
 class SessionStatus(msgspec.Struct, frozen=True, kw_only=True):
@@ -95,7 +118,9 @@ class SessionWatch:
         *lines, self._tail = (self._tail + added).split(b"\n")
         for line in lines:
             try:
-                self._note(_envelope.decode(line), _record.decode(line))
+                envelope = _line.decode(line)
+                record = _telling.decode(line) if envelope.type in _TAGS else None
+                self._note(envelope, record)
             except (msgspec.DecodeError, UnicodeDecodeError):
                 self.torn += 1
 
@@ -126,8 +151,9 @@ class SessionWatch:
             problems=tuple(self._problems(state, silent_s)),
         )
 
-    def _note(self, envelope: Envelope, record: Record) -> None:
-        self.progress = self.progress.after(envelope, record)
+    def _note(self, envelope: Envelope, record: _Telling | None) -> None:
+        if record is not None:
+            self.progress = self.progress.after(envelope, record)
         self.last_utc = envelope.utc
         if envelope.phase != "session":
             self.step = Step(envelope.phase, envelope.round)

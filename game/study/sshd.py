@@ -35,20 +35,25 @@ class LoopbackServer:
 
 
 def program() -> Path:
-    """The `ana` that runs now, as a path for another account's configuration."""
-    return Path(sys.executable).with_name("ana")
+    """The `ana` that runs now, by its whole path. Raises StudyError where it is not installed."""
+    path = Path(sys.executable).with_name("ana")
+    if not path.exists():
+        raise StudyError(
+            "ana is not installed as a program", place=str(path), mend="Install it with pip"
+        )
+    return path
 
 
 def configuration(
-    study: Path, account: str, ana: Path, test_server: LoopbackServer | None = None
+    study: Path, account: str, ana: Path, loopback: LoopbackServer | None = None
 ) -> str:
     """The commented configuration: a file for /etc/ssh/sshd_config.d, or a whole test server's."""
     folder = study.resolve()
     head = _SYSTEM.format(account=account, file=f"ana-{account}.conf", variable=VARIABLE)
-    if test_server is not None:
-        keys = test_server.keys.resolve()
-        head = _TEST.format(
-            port=test_server.port,
+    if loopback is not None:
+        keys = loopback.keys.resolve()
+        head = _LOOPBACK.format(
+            port=loopback.port,
             keys=keys,
             host_key=_quoted(keys / HOST_KEY),
             authorized_keys=_quoted(keys / AUTHORIZED_KEYS),
@@ -102,7 +107,7 @@ MaxStartups 60:30:120
 
 """
 
-_TEST = """\
+_LOOPBACK = """\
 # A server of your own on this machine's loopback, to try the study with. Make its keys first:
 #
 #   mkdir -m 700 {keys}

@@ -14,6 +14,7 @@ import click
 
 from tests.bench.coach import coach_costs, mission_s
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paint_ms, key_costs
+from tests.bench.simulation import simulation_rates
 
 BUILDINGS = ("harbour", "foundry")
 FLOOR = (sys.executable, "-m", "tests.bench.floor")
@@ -83,10 +84,19 @@ def coaching() -> Iterator[Figure]:
         yield Figure(f"headless mission, {name}", mission_s(name), "s", 0.3)
 
 
+def simulating() -> Iterator[Figure]:
+    """Whole study sessions of simulated people on one core, journals written."""
+    rates = simulation_rates()
+    yield Figure("simulated sessions", rates.sessions_per_s, "/s")
+    yield Figure("their missions, practice too", rates.missions_per_s, "/s")
+    yield Figure("mission time to processor time", rates.sped, "")
+
+
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "keys": keys,
     "opening": opening,
     "coaching": coaching,
+    "simulating": simulating,
 }
 
 

@@ -97,8 +97,8 @@ class Office:
     def __init__(
         self, cell: Cell, heading: Heading, controls: Controls = "compass", text: str = ""
     ) -> None:
-        self.mission = Mission(office(), MissionSettings(controls=controls))
-        self.mission.position, self.mission.heading = cell, heading
+        begun_here = replace(office(), start=cell, start_heading=heading)
+        self.mission = Mission(begun_here, MissionSettings(controls=controls))
         self.reader = LiteralReader(controls, PLACES)
         self.guidance = Guidance(text)
         self.now_ms = 0

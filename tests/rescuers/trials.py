@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from pathlib import Path
 from textwrap import wrap
@@ -13,12 +13,11 @@ from game.coach.records import Level
 from game.rescuers.literal.grammar import parse
 from game.rescuers.literal.walking import Stuck, Walker
 from game.world.building import Building, VictimSite
-from game.world.events import Action
+from game.world.events import TreatmentStarted
 from game.world.floodfill import UNREACHABLE, Floodfills
 from game.world.geometry import Cell, Heading
 from game.world.library import shipped_buildings
 from game.world.mission import Mission
-from game.world.observation import Observation, VictimState
 from game.world.settings import Controls, MissionSettings
 
 MISSTEP = {Level.C1: 1, Level.C2: 3, Level.C3: 8}
@@ -33,10 +32,11 @@ BUILDINGS = (*shipped_buildings(), *PEER_MAPS)
 
 @dataclass(frozen=True)
 class Trial:
-    """The cells walked over, the victim a press would treat at the end, and whether the reader
-    could do all that the text says."""
+    """The cells walked over, where it ended, the victim whose treatment began, and whether the
+    reader could do all that the text says."""
 
     path: tuple[Cell, ...]
+    end: Pose
     treated: str | None
     carried_out: bool
 
@@ -49,23 +49,17 @@ class Ground:
         building: Building,
         controls: Controls,
         floodfills: Floodfills | None = None,
+        sight_radius: int = 5,
     ) -> None:
         self.building = building
-        self.settings = MissionSettings(controls=controls)
+        self.settings = MissionSettings(controls=controls, sight_radius=sight_radius)
         self.floodfills = floodfills or Floodfills(building.plan)
-        self.mission = Mission(building, self.settings)
-        self.waiting: Mapping[str, VictimSite] = {}
         self.let_wait({site.id: site for site in building.victims})
 
     def let_wait(self, waiting: Mapping[str, VictimSite]) -> None:
-        """From now on only these victims wait; the others are rescued."""
+        """From now on only these victims are there."""
         self.waiting = waiting
         self.scene = Scene(self.building, self.floodfills, waiting, self.settings)
-        for victim in self.mission.victims:
-            is_waiting = victim in waiting
-            self.mission.victims[victim] = (
-                VictimState.WAITING if is_waiting else VictimState.RESCUED
-            )
 
     def poses(self) -> Iterator[Pose]:
         """Every pose that can be reached from the start."""
@@ -74,33 +68,35 @@ class Ground:
             if self.floodfills.distance(cell, start) != UNREACHABLE:
                 yield from (Pose(cell, heading) for heading in Heading)
 
-    def observe(self) -> Observation:
-        return self.mission.observation()
+    def mission_from(self, pose: Pose) -> Mission:
+        """A mission that begins at `pose`, with the victims that wait now."""
+        victims = tuple(self.waiting.values())
+        return Mission(
+            replace(self.building, start=pose.cell, start_heading=pose.heading, victims=victims),
+            self.settings,
+        )
 
     def try_out(self, pose: Pose, text: str) -> Trial:
         """Carry a text out from a pose, with a reader who knows nothing but the Observations."""
-        mission = self.mission
-        mission.position, mission.heading = pose
+        mission = self.mission_from(pose)
         places = {room.name: room.label for room in self.building.rooms}
         walker = Walker(self.settings.controls, places, pose.heading)
-        doing = walker.carry_out(parse(text), self.observe())
-        path, treated = [pose.cell], None
+        doing = walker.carry_out(parse(text), mission.observation())
+        path, treated, carried_out = [pose.cell], None, False
         try:
             action = next(doing)
             while len(path) < LONGEST_WALK:
-                if action is Action.TRIAGE:
-                    site = mission.victim_in_reach()
-                    treated = None if site is None else site.id
-                else:
-                    mission.step(action, 0)
+                for event in mission.step(action, 0):
+                    if isinstance(event, TreatmentStarted):
+                        treated = event.victim
                 if mission.position != path[-1]:
                     path.append(mission.position)
-                action = doing.send(self.observe())
+                action = doing.send(mission.observation())
         except StopIteration:
-            return Trial(tuple(path), treated, carried_out=True)
+            carried_out = True
         except Stuck:
             pass
-        return Trial(tuple(path), treated, carried_out=False)
+        return Trial(tuple(path), Pose(mission.position, mission.heading), treated, carried_out)
 
     def fault(self, instruction: Instruction, trial: Trial) -> str | None:
         """What is wrong with an instruction that was tried out; None if it is sound."""
@@ -119,22 +115,6 @@ class Ground:
             checks["brings nobody nearer"] = walked[-1] >= walked[0]
             checks["ends elsewhere"] = trial.path[-1] != instruction.end.cell
         return next((fault for fault, found in checks.items() if found), None)
-
-
-class Remembered(Ground):
-    """A ground for very many trials: what is seen from a pose is kept while the same victims wait,
-    so what has been explored means nothing."""
-
-    def let_wait(self, waiting: Mapping[str, VictimSite]) -> None:
-        super().let_wait(waiting)
-        self._views: dict[tuple[Cell, Heading], Observation] = {}
-
-    def observe(self) -> Observation:
-        pose = self.mission.position, self.mission.heading
-        view = self._views.get(pose)
-        if view is None:
-            view = self._views[pose] = super().observe()
-        return view
 
 
 def without_each_sentence(text: str) -> Iterator[tuple[str, str]]:

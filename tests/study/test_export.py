@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from analysis.longcsv import read_long_csv
 from game.session.reader import read_journal
 from game.session.verify import verify
 from game.study.export import export_study, without_free_text
@@ -32,7 +33,7 @@ Files = dict[str, bytes]
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
+def several(tmp_path_factory: pytest.TempPathFactory) -> Study:
     """A study that two finished, one declined and one tried."""
     study = small_study(tmp_path_factory.mktemp("export") / "study")
     take_part(study, P01)
@@ -43,10 +44,10 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
 
 
 @pytest.fixture
-def study(finished: Study, tmp_path: Path) -> Study:
+def study(several: Study, tmp_path: Path) -> Study:
     folder = tmp_path / "study"
-    shutil.copytree(finished.folder, folder)
-    return replace(finished, folder=folder)
+    shutil.copytree(several.folder, folder)
+    return replace(several, folder=folder)
 
 
 def contents(folder: Path) -> Files:
@@ -119,6 +120,16 @@ def test_the_analysis_table_has_a_row_a_participant_and_instructor(
     people = table(tmp_path / "out", "participants")
     endings = {row["participant"]: row["session_ending"] for row in people}
     assert endings == {"P01": "finished", "P02": "finished", "P03": "declined"}
+
+
+def test_the_analysis_reads_the_table_as_it_is(study: Study, tmp_path: Path) -> None:
+    export_study(study.folder, tmp_path / "out")
+    (rounds,) = (tmp_path / "out").rglob("*description-rounds_data.csv")
+    (people,) = (tmp_path / "out").rglob("*description-participants_data.csv")
+    read = read_long_csv(rounds, people)
+    assert list(read.participants.index) == ["P01", "P02"]
+    assert set(read.participants["quiz_static"]) == {0.5}
+    assert set(read.rounds["preference"]) == {12}
 
 
 def test_modes_are_mixed_in_no_file(study: Study, tmp_path: Path) -> None:
@@ -251,4 +262,4 @@ def test_the_command_says_what_it_wrote(study: Study, tmp_path: Path) -> None:
         group, ["export", str(study.folder), str(out), "--mode", "pilot"], standalone_mode=False
     )
     assert done.exception is None
-    assert done.stdout == f"{out}: 1 pilot sessions, 2 rounds\n"
+    assert done.stdout == f"{out}: pilot sessions 1, rounds 2\n"

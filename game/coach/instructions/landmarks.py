@@ -16,11 +16,15 @@ from game.coach.instructions.vocabulary import MOST_COUNTED, Tuple
 from game.world.building import Building, Room
 from game.world.geometry import Cell, Heading
 from game.world.plan import Tile
-from game.world.sight import Sight
+from game.world.sight import sight_in
 
 ABREAST = 5
 """How far to the side a walker looks for doors and openings, in cells (at most the sight)."""
 
+FLOOR, DOOR = int(Tile.FLOOR), int(Tile.DOOR)
+
+NOWHERE = -1
+"""No cell's index."""
 
 EXIT_ROOM: Tuple = ("Exit", "Room")
 
@@ -38,14 +42,22 @@ class Move(NamedTuple):
 
 
 class Met(NamedTuple):
-    """A door or an intersection that comes abreast `to_end` steps before the floor ends; `beyond`
-    is the first cell behind a door that can be walked through."""
+    """A Door or an Intersection that comes abreast on one side, `to_end` steps before the floor
+    ends; `beyond` is the first cell behind a door that can be walked through."""
 
-    name: str
-    to_end: int
+    thing: str
     side: Heading
-    door: int | None
+    side_name: str
+    to_end: int
     beyond: int | None
+
+
+class _Exits(NamedTuple):
+    """The ways out of one room: for each cell the steps to its nearest door cell and that door
+    cell (NOWHERE at a tie), and for each door cell the way through it and the cell beyond."""
+
+    nearest: dict[int, tuple[int, int]]
+    beyond: dict[int, tuple[Heading, int]]
 
 
 class Landmarks:
@@ -53,15 +65,14 @@ class Landmarks:
 
     def __init__(self, building: Building, sight_radius: int) -> None:
         self.building = building
-        self.sight = Sight(building.plan, sight_radius)
+        self.sight = sight_in(building.plan, sight_radius)
         self.strides = (-building.plan.width, 1, building.plan.width, -1)
-        self.reach = min(ABREAST, sight_radius)
+        self._reach = min(ABREAST, sight_radius)
         self._tiles = building.plan.tiles
         self._runs: dict[tuple[int, Heading], tuple[Met, ...]] = {}
         self._moves: dict[tuple[int, Heading], tuple[Move, ...]] = {}
-        self._exits: dict[str, dict[int, Move]] = {}
+        self._exits: dict[str, _Exits] = {}
         self._lookouts: dict[Cell, int] = {}
-        self._floors: dict[Cell, int] = {}
 
     def moves(self, start: int, heading: Heading) -> tuple[Move, ...]:
         """Every tuple that can be carried out straight ahead from `start`, facing `heading`."""
@@ -81,7 +92,13 @@ class Landmarks:
         exits = self._exits.get(room.name)
         if exits is None:
             exits = self._exits[room.name] = self._find_exits(room)
-        return exits.get(start)
+        steps, door = exits.nearest.get(start, (0, NOWHERE))
+        out = exits.beyond.get(door)
+        if out is None:
+            return None
+        heading, end = out
+        onward = (end - door) // self.strides[heading]
+        return Move(EXIT_ROOM, door, end, heading, steps + onward)
 
     def lookouts(self, target: Cell) -> int:
         """The mask of cells from which `target` may be in view: within the radius, and with no
@@ -95,13 +112,16 @@ class Landmarks:
                 row << y * plan.width
                 for y in range(max(0, target[1] - radius), min(plan.height, target[1] + radius + 1))
             )
-            mask = square & (self._at_doors | self._floor_around(target))
-            self._lookouts[target] = mask
+            room = self.building.room_at(target)
+            if room is not None:
+                square &= self._at_doors | plan.mask(room.cells)
+            mask = self._lookouts[target] = square
         return mask
 
-    def shares_floor(self, cell: int, target: Cell) -> bool:
-        """Whether no door lies between the two."""
-        return bool(self._floor_around(target) >> cell & 1)
+    def share_room(self, cell: int, target: Cell) -> bool:
+        """Whether both lie in the same room, or neither in any."""
+        building = self.building
+        return building.room_at(building.plan.cell(cell)) is building.room_at(target)
 
     @cached_property
     def _at_doors(self) -> int:
@@ -109,21 +129,6 @@ class Landmarks:
         doors = [cell for door in self.building.doors for cell in door.cells]
         beside = [heading.from_cell(cell) for cell in doors for heading in Heading]
         return self.building.plan.mask([*doors, *beside])
-
-    def _floor_around(self, target: Cell) -> int:
-        """The mask of the floor that walls and doors close off around a floor cell."""
-        found = self._floors.get(target)
-        if found is None:
-            frontier = [self.building.plan.index(target)]
-            found = 1 << frontier[0]
-            for cell in frontier:
-                for stride in self.strides:
-                    near = cell + stride
-                    if self._tiles[near] == Tile.FLOOR and not found >> near & 1:
-                        found |= 1 << near
-                        frontier.append(near)
-            self._floors[target] = found
-        return found
 
     def path(self, start: int, move: Move) -> list[int]:
         """The cells that a move leads over, without its start."""
@@ -158,22 +163,10 @@ class Landmarks:
             clear = [0] * size
             for start in range(size) if stride < 0 else range(size - 1, -1, -1):
                 ahead = start + stride
-                if 0 <= ahead < size and self._tiles[ahead] == Tile.FLOOR:
+                if 0 <= ahead < size and self._tiles[ahead] == FLOOR:
                     clear[start] = clear[ahead] + 1
             table.append(clear)
         return tuple(table)
-
-    def _door_abreast(self, cell: int, side: Heading) -> int | None:
-        """The first cell to the `side` that is no floor, if it is a door cell within reach."""
-        distance = self._clear[side][cell] + 1
-        if distance > self.reach:
-            return None
-        door = cell + distance * self.strides[side]
-        return door if self._tiles[door] == Tile.DOOR else None
-
-    def _opens(self, cell: int, side: Heading) -> bool:
-        """Whether a way leads off to the `side`: floor as far as the walker looks."""
-        return self._clear[side][cell] >= ABREAST <= self.reach
 
     def _find_moves(self, start: int, heading: Heading) -> list[Move]:
         """All moves ahead: through doors, to doors and intersections, to the end of the floor."""
@@ -185,25 +178,26 @@ class Landmarks:
             return moves
         end = start + run * self.strides[heading]
         moves.append(Move(("Proceed", "Room" if indoors else "Hallway"), end, end, heading, run))
-        counts: Counter[str] = Counter()
+        counts: Counter[tuple[str, Heading]] = Counter()
         for met in self._met_on_run(end, heading):
             steps = run - met.to_end
-            if steps <= 0 or (indoors and met.door is None):
+            if steps <= 0 or (indoors and met.thing == "Intersection"):
                 continue
-            counts[met.name] += 1
-            count = counts[met.name]
+            counts[met.thing, met.side] += 1
+            count = counts[met.thing, met.side]
             if count > MOST_COUNTED:
                 continue
-            thing = f"{count} {met.name}"
+            phrase = f"{count} {met.thing} {met.side_name}"
             cell = start + steps * self.strides[heading]
             if met.beyond is not None:
                 total = steps + (met.beyond - cell) // self.strides[met.side]
-                moves.append(Move((verb, thing), cell, met.beyond, met.side, total, count))
-            moves.append(Move(("Proceed", thing), cell, cell, heading, steps, count))
+                moves.append(Move((verb, phrase), cell, met.beyond, met.side, total, count))
+            moves.append(Move(("Proceed", phrase), cell, cell, heading, steps, count))
         return moves
 
     def _met_on_run(self, end: int, heading: Heading) -> tuple[Met, ...]:
-        """What comes abreast on the straight floor that ends at `end`, in the order of meeting.
+        """What comes abreast on the straight floor that ends at `end`, on each side in the order of
+        meeting.
 
         Cells of one doorway are met once, and so is a stretch from which a way leads off; what is
         abreast of the cell before (a doorway into the run, at most) is not met again.
@@ -216,30 +210,34 @@ class Landmarks:
 
     def _survey(self, end: int, heading: Heading) -> Iterator[Met]:
         stride = self.strides[heading]
-        sides = (heading.left, "left"), (heading.right, "right")
         length = self.clear(end, heading.back) + 1
-        for to_end in range(length - 1, -1, -1):
-            cell = end - to_end * stride
-            for side, word in sides:
-                door, before = (
-                    self._door_abreast(cell, side),
-                    self._door_abreast(cell - stride, side),
-                )
-                if door is not None and (before is None or door - before != stride):
-                    yield Met(f"Door {word}", to_end, side, door, self._beyond(door, side))
-                if self._opens(cell, side) and not self._opens(cell - stride, side):
-                    yield Met(f"Intersection {word}", to_end, side, None, None)
+        for side, name in ((heading.left, "left"), (heading.right, "right")):
+            clear, aside = self._clear[side], self.strides[side]
+            door_before, open_before = NOWHERE, True
+            for to_end in range(length, -1, -1):
+                cell = end - to_end * stride
+                free = clear[cell]
+                is_open = free >= ABREAST <= self._reach
+                door = cell + (free + 1) * aside if free < self._reach else NOWHERE
+                if self._tiles[door] != DOOR:
+                    door = NOWHERE
+                if to_end < length:
+                    if door != NOWHERE and door - door_before != stride:
+                        yield Met("Door", side, name, to_end, self._beyond(door, side))
+                    if is_open and not open_before:
+                        yield Met("Intersection", side, name, to_end, None)
+                door_before, open_before = door, is_open
 
     def _through_ahead(self, start: int, heading: Heading, run: int, verb: str) -> list[Move]:
         """Through the door straight ahead; and from a doorway onto the first cell beyond it."""
         moves = []
         door = start + (run + 1) * self.strides[heading]
-        if self._tiles[door] == Tile.DOOR:
+        if self._tiles[door] == DOOR:
             beyond = self._beyond(door, heading)
             if beyond is not None:
                 steps = (beyond - start) // self.strides[heading]
                 moves.append(Move((verb, "Door"), beyond, beyond, heading, steps))
-        if self._tiles[start] == Tile.DOOR:
+        if self._tiles[start] == DOOR:
             beyond = self._beyond(start, heading)
             if beyond is not None:
                 steps = (beyond - start) // self.strides[heading]
@@ -251,25 +249,18 @@ class Landmarks:
     def _beyond(self, door: int, heading: Heading) -> int | None:
         """The first cell behind a door walked through straight; None where a wall is behind it."""
         stride = self.strides[heading]
-        while self._tiles[door] == Tile.DOOR:
+        while self._tiles[door] == DOOR:
             door += stride
-        return door if self._tiles[door] == Tile.FLOOR else None
+        return door if self._tiles[door] == FLOOR else None
 
-    def _find_exits(self, room: Room) -> dict[int, Move]:
-        """`Exit Room` from each cell of a room where one door cell is nearest."""
+    def _find_exits(self, room: Room) -> _Exits:
         plan = self.building.plan
         floor = {plan.index(cell) for cell in room.cells}
         doorways = (self.building.doors[door] for door in room.doors)
         doors = [plan.index(cell) for doorway in doorways for cell in doorway.cells]
-        beyond = {door: self._way_out(door, floor) for door in doors}
-        exits: dict[int, Move] = {}
-        for cell, (steps, door) in self._nearest(doors, floor).items():
-            out = None if door is None else beyond[door]
-            if door is not None and out is not None:
-                heading, end = out
-                onward = (end - door) // self.strides[heading]
-                exits[cell] = Move(EXIT_ROOM, door, end, heading, steps + onward)
-        return exits
+        ways = ((door, self._way_out(door, floor)) for door in doors)
+        beyond = {door: way for door, way in ways if way is not None}
+        return _Exits(self._nearest(doors, floor), beyond)
 
     def _way_out(self, door: int, floor: set[int]) -> tuple[Heading, int] | None:
         """Which way a door cell leads out of a room's `floor`, and the first cell beyond it; None
@@ -278,20 +269,20 @@ class Landmarks:
         beyond = self._beyond(door, ways[0]) if len(ways) == 1 else None
         return None if beyond is None else (ways[0], beyond)
 
-    def _nearest(self, doors: list[int], floor: set[int]) -> dict[int, tuple[int, int | None]]:
+    def _nearest(self, doors: list[int], floor: set[int]) -> dict[int, tuple[int, int]]:
         """For every cell of a room's `floor`: the steps over it to the nearest of `doors`, and
-        that door cell; None where two are equally near."""
-        nearest: dict[int, tuple[int, int | None]] = {}
-        frontier: dict[int, int | None] = {door: door for door in doors}
-        steps = 0
-        while frontier:
-            steps += 1
-            reached: dict[int, int | None] = {}
-            for cell, door in frontier.items():
-                for stride in self.strides:
-                    near = cell + stride
-                    if near in floor and near not in nearest:
-                        reached[near] = door if reached.get(near, door) == door else None
-            nearest |= {cell: (steps, door) for cell, door in reached.items()}
-            frontier = reached
+        that door cell; NOWHERE where two are equally near."""
+        nearest = {door: (0, door) for door in doors}
+        frontier = list(doors)
+        for cell in frontier:
+            steps, door = nearest[cell]
+            for stride in self.strides:
+                near = cell + stride
+                if near not in floor:
+                    continue
+                if near not in nearest:
+                    nearest[near] = steps + 1, door
+                    frontier.append(near)
+                elif nearest[near][0] == steps + 1 and nearest[near][1] != door:
+                    nearest[near] = steps + 1, NOWHERE
         return nearest

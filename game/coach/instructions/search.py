@@ -23,7 +23,7 @@ MOST_DETOUR = 2
 TUPLE_COST, DETOUR_COST, COUNT_COST = 6, 4, 1
 """What a tuple, a step away from the goal, and each door or intersection beyond the first weigh."""
 
-SILENCE_COST, STEP_COST = 24, 1
+SILENCE_COST, STEP_COST = 40, 1
 """What it weighs to be at a loss for words, and then each step to the goal: where no way can be
 told to its end, it is told as far as this is worth it."""
 
@@ -133,9 +133,9 @@ class Search:
 
     def _until_seen(self, start: int, heading: Heading) -> Move | None:
         """`Proceed redvictim`: straight ahead until a victim of the goal's colour is in view. Made
-        only on the goal's own floor, where none is in view at the start, and the goal is at the
+        only in the goal's own room, where none is in view at the start, and the goal is at the
         end."""
-        if not self._landmarks.shares_floor(start, self._goal.cell) or self._seen(start):
+        if not self._landmarks.share_room(start, self._goal.cell) or self._seen(start):
             return None
         for steps in range(1, self._landmarks.clear(start, heading) + 1):
             cell = start + steps * self._landmarks.strides[heading]

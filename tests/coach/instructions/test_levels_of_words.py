@@ -1,5 +1,7 @@
 """What is said at C1, C2 and C3, and the way between them."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -140,8 +142,8 @@ def test_a_treatment_is_of_the_goal(where: Pose, goal: str) -> None:
 
 @given(a_pose)
 def test_the_coach_knows_the_triage_rule(where: Pose) -> None:
-    mission = Mission(office(), MissionSettings())
-    mission.position, mission.heading = where
+    begun_here = replace(office(), start=where.cell, start_heading=where.heading)
+    mission = Mission(begun_here, MissionSettings())
     assert scene().treated_at(where) == mission.victim_in_reach()
 
 
