@@ -24,6 +24,7 @@ from game.coach.records import (
     Level,
     Misstep,
     NothingLeft,
+    NoticeTakenDown,
 )
 from game.coach.route import RoutePlanner
 from game.world.building import Severity, VictimSite
@@ -181,8 +182,9 @@ class Guide(ABC, Generic[State]):
             return records + self._follow_level(at_ms, pose)
         distance = self._floodfills.distance(pose.cell, self._waiting[instruction.goal].cell)
         self._compliance = self._compliance.acted(distance)
-        if self._compliance.heeded:
+        if self._compliance.heeded and self._guidance.notice:
             self._guidance = Guidance(instruction.text)
+            records.append(NoticeTakenDown(at_ms, self._number))
         if reached(instruction, pose):
             records += self._completed(at_ms)
             return records + self._issue(at_ms, pose, "completed")

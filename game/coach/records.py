@@ -66,6 +66,12 @@ class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued", kw_only
     reason: Literal["goal", "completed", "level", "off_path", "misstep", "resumed"] = "goal"
 
 
+class NoticeTakenDown(CoachAct, frozen=True, tag="notice_taken_down"):
+    """The correction before instruction `number` was heeded, and has left the bar."""
+
+    number: int
+
+
 class InstructionCompleted(CoachAct, frozen=True, tag="instruction_completed"):
     number: int
 
@@ -129,6 +135,7 @@ CoachRecord = (
     GoalSet
     | NothingLeft
     | InstructionIssued
+    | NoticeTakenDown
     | InstructionCompleted
     | Misstep
     | Disobeyed

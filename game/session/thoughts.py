@@ -13,6 +13,7 @@ from game.coach.records import (
     LevelChanged,
     Misstep,
     NothingLeft,
+    NoticeTakenDown,
     PaceLearned,
     PosteriorEvaluated,
 )
@@ -53,6 +54,8 @@ class Thoughts:
             case InstructionIssued():
                 words = Guidance(record.text, record.notice)
                 return replace(self, instruction=record, guidance=words, level=record.level)
+            case NoticeTakenDown() if self.guidance is not None:
+                return replace(self, guidance=Guidance(self.guidance.text))
             case NothingLeft():
                 alone = Guidance("", record.notice)
                 return replace(self, goal=None, room=None, route=(), guidance=alone)
