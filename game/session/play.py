@@ -6,6 +6,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
+from typing import Literal
 
 from game.coach.api import Briefing, Coach
 from game.coach.presets import Preset, preset
@@ -132,24 +133,25 @@ def assemble(
 
 
 def leave_mission(
-    run: MissionRun, journal: Journal, now_ms: int, *, interrupted: bool = False
+    run: MissionRun,
+    journal: Journal,
+    now_ms: int,
+    reason: Literal["quit", "interrupted", "leg_done"] = "quit",
 ) -> None:
     """Let the mission run on to `now_ms`, and abandon it there if it has not ended."""
     run.advance(now_ms)
     if not run.ended:
-        journal.append(MissionAbandoned(now_ms, "interrupted" if interrupted else "quit"))
+        journal.append(MissionAbandoned(now_ms, reason))
 
 
 def end_free_play(
     run: MissionRun, journal: Journal, now_ms: int, *, interrupted: bool = False
 ) -> None:
     """Leave the mission, and end and close its journal."""
-    leave_mission(run, journal, now_ms, interrupted=interrupted)
+    reason: Literal["quit", "interrupted"] = "interrupted" if interrupted else "quit"
+    leave_mission(run, journal, now_ms, reason)
     journal.enter("session")
-    if run.ended:
-        journal.append(SessionEnded("finished"))
-    else:
-        journal.append(SessionEnded("interrupted" if interrupted else "quit"))
+    journal.append(SessionEnded("finished" if run.ended else reason))
     journal.close()
 
 

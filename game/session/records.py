@@ -140,10 +140,11 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):
-    """The mission was left at `at_ms` of its time, before its end."""
+    """The mission was left at `at_ms` of its time, before its end; a leg of practice is left when
+    it is done."""
 
     at_ms: int
-    reason: Literal["quit", "restarted", "interrupted"]
+    reason: Literal["quit", "restarted", "interrupted", "leg_done"]
 
 
 class Paused(SessionRecord, frozen=True, tag="paused"):

@@ -47,7 +47,7 @@ class FileSink:
         self._new_name = not path.exists()
         try:
             if create:
-                _make_folders(path.parent)
+                make_folders(path.parent)
             flags = os.O_RDWR | os.O_APPEND | (os.O_CREAT if create else 0)
             self._descriptor = os.open(path, flags, 0o600)
         except OSError as error:
@@ -191,7 +191,8 @@ def _locked_out(path: Path, error: OSError) -> JournalError:
     return cannot_write(path, error)
 
 
-def _make_folders(folder: Path) -> None:
+def make_folders(folder: Path) -> None:
+    """Make the folder and all that are missing above it, each for its owner alone (0700)."""
     missing = [parent for parent in (folder, *folder.parents) if not parent.exists()]
     for parent in reversed(missing):
         parent.mkdir(mode=0o700, exist_ok=True)

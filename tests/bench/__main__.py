@@ -9,12 +9,15 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import click
 
 from tests.bench.coach import coach_costs, mission_s
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paint_ms, key_costs
 from tests.bench.simulation import simulation_rates
+from tests.bench.ssh import PARTICIPANTS, at_once
+from tests.study.server import SSH, SSHD
 
 BUILDINGS = ("harbour", "foundry")
 FLOOR = (sys.executable, "-m", "tests.bench.floor")
@@ -92,11 +95,27 @@ def simulating() -> Iterator[Figure]:
     yield Figure("mission time to processor time", rates.sped, "")
 
 
+def ssh() -> Iterator[Figure]:
+    """Participants at once in the mission of a study, 8 keys a second each at pace 20, over a real
+    OpenSSH server on the loopback."""
+    if SSHD is None or SSH is None:
+        click.echo("ssh: left out, since OpenSSH's server or client is not installed")
+        return
+    floor = at_once(("cd", str(Path.cwd()), "&&", "exec", *FLOOR), WALK)
+    ours = at_once(None, WALK, ignored_rows=CLOCK_ROWS)
+    yield Figure(f"{PARTICIPANTS} over ssh, keys answered", ours.answered, f"of {ours.pressed}")
+    yield Figure("key to painted, p50", ours.p50_ms, "ms", floor=floor.p50_ms)
+    yield Figure("key to painted, p95", ours.p95_ms, "ms", 5, floor.p95_ms)
+    yield Figure("the same in milliseconds", ours.p95_ms, "ms", 20)
+    yield Figure("memory a participant, PSS", ours.pss_mb, "MB", 40)
+
+
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "keys": keys,
     "opening": opening,
     "coaching": coaching,
     "simulating": simulating,
+    "ssh": ssh,
 }
 
 

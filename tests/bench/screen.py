@@ -56,7 +56,7 @@ def key_costs(
             terminal.press(key)
         terminal.read_for(0.5)
         cpu_s = _cpu_s(terminal.pid) - cpu_before
-        latencies, painted = _answers(terminal, pressed, before, frozenset(ignored_rows))
+        latencies, painted = answers(terminal, pressed, before, frozenset(ignored_rows))
     return KeyCosts(
         p50_ms=median(latencies),
         p95_ms=quantiles(latencies, n=20)[-1],
@@ -92,7 +92,7 @@ def _settle(terminal: Terminal) -> None:
             return
 
 
-def _answers(
+def answers(
     terminal: Terminal, pressed: Sequence[float], before: int, ignored: frozenset[int]
 ) -> tuple[list[float], int]:
     """For each key that changed a cell, the time to the chunk that changed the last one."""

@@ -1,0 +1,19 @@
+"""A bounded person: reads at a pace, remembers part of a map, miscounts doors, presses wrong keys.
+
+Receives the Observation and nothing more, and acts through the same timed actions as anybody.
+`docs/simulated-people.md` says in words what is assumed and why.
+"""
+
+from game.rescuers.person.memory import MapMemory, memorised
+from game.rescuers.person.parameters import POPULATIONS, Population, Traits, drawn
+from game.rescuers.person.rescuer import BoundedPerson
+
+__all__ = [
+    "POPULATIONS",
+    "BoundedPerson",
+    "MapMemory",
+    "Population",
+    "Traits",
+    "drawn",
+    "memorised",
+]

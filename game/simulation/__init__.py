@@ -1,0 +1,1 @@
+"""Whole studies with simulated people, as journals of the very same form (design 10)."""

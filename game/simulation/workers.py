@@ -1,0 +1,115 @@
+"""Where simulated sessions are computed: in this process, on local cores, or on a cluster.
+
+Each way takes the same work and gives the journals in the order of the work, so that what is
+written does not depend on who computed it.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from itertools import islice
+from typing import Any
+
+from game.errors import AnaError
+from game.rescuers.person import Population
+from game.simulation.session import play_session
+from game.study.folder import Study
+from game.study.ledger import SlotTaken
+
+Journals = Iterator[tuple[SlotTaken, bytes]]
+AHEAD = 4
+"""How many sessions are handed out for each core before the first of them is asked back."""
+
+
+class SchedulerError(AnaError):
+    """The cluster cannot be used."""
+
+
+def here(study: Study, work: Sequence[SlotTaken], population: Population) -> Journals:
+    """In this process, one after the other."""
+    for taken in work:
+        yield taken, play_session(study, taken, population)
+
+
+def on_cores(
+    study: Study, work: Sequence[SlotTaken], population: Population, jobs: int
+) -> Journals:
+    """On `jobs` cores of this machine. An interrupt in between leaves no process behind."""
+    pool = ProcessPoolExecutor(jobs, initializer=_get_ready, initargs=(study, population))
+    try:
+        yield from _in_order(work, lambda taken: pool.submit(_play, taken), jobs * AHEAD)
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def on_cluster(
+    study: Study,
+    work: Sequence[SlotTaken],
+    population: Population,
+    address: str,
+    timeout_s: float = 10,
+) -> Journals:
+    """On the workers of the dask scheduler at `address`, which need `ana` of the same version and
+    no folder in common. Raises SchedulerError when it cannot be reached."""
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise SchedulerError(
+            "dask.distributed is not installed",
+            place="--scheduler",
+            mend="Install the extra: pip install 'ana[cluster]'",
+        ) from error
+    try:
+        client = Client(address, timeout=timeout_s)
+    except (OSError, ValueError) as error:
+        raise SchedulerError(
+            f"no scheduler answers at {address}",
+            place="--scheduler",
+            mend="Start one with `dask scheduler`, and give its address, tcp://HOST:PORT",
+        ) from error
+    with client:
+        shared = client.scatter(study, broadcast=True)
+
+        def submit(taken: SlotTaken) -> Any:
+            return client.submit(play_session, shared, taken, population, pure=False)
+
+        cores = sum(client.ncores().values()) or 1
+        yield from _in_order(work, submit, cores * AHEAD)
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _in_order(
+    work: Sequence[SlotTaken], submit: Callable[[SlotTaken], Future[bytes]], ahead: int
+) -> Journals:
+    """What was submitted, in the order of the work, with no more than `ahead` under way."""
+    waiting = iter(work)
+    under_way = deque((taken, submit(taken)) for taken in islice(waiting, ahead))
+    while under_way:
+        taken, future = under_way.popleft()
+        journal = future.result()
+        under_way.extend((following, submit(following)) for following in islice(waiting, 1))
+        yield taken, journal
+
+
+_common: tuple[Study, Population] | None = None
+
+
+def _get_ready(study: Study, population: Population) -> None:
+    """What all sessions of a process share. An interrupt is the parent's affair."""
+    global _common  # noqa: PLW0603 - a pool hands its workers their common data in no other way
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _common = study, population
+
+
+def _play(taken: SlotTaken) -> bytes:
+    assert _common is not None
+    study, population = _common
+    return play_session(study, taken, population)
