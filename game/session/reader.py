@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 
@@ -157,9 +158,22 @@ class _Broken:
     reason: str
 
 
-_head = msgspec.json.Decoder(_Head)
-_envelope = msgspec.json.Decoder(Envelope)
-_record = msgspec.json.Decoder(Record)
+class _Decoders(NamedTuple):
+    """Of a line's first look, its envelope and its record."""
+
+    head: msgspec.json.Decoder[_Head]
+    envelope: msgspec.json.Decoder[Envelope]
+    record: msgspec.json.Decoder[Record]
+
+
+@cache
+def _decoders() -> _Decoders:
+    """Made when a journal is first read: a mission that is begun should not wait for them."""
+    return _Decoders(
+        msgspec.json.Decoder(_Head),
+        msgspec.json.Decoder(Envelope),
+        msgspec.json.Decoder(Record),
+    )
 
 
 class _Parser:
@@ -169,19 +183,21 @@ class _Parser:
         self._source = source
         self._upgrades = upgrades
         self._schema: int | None = None
+        self._decode = _decoders()
 
     def parse(self, number: int, line: bytes) -> Entry | _Broken:
         try:
-            head = _head.decode(line)
+            head = self._decode.head.decode(line)
             if head.versions is not None:
                 self._schema = self._known(head.versions.schema, number)
             if self._schema is None:
                 raise self._error(number, "a journal begins with session_started", _MEND)
             if self._schema == SCHEMA_VERSION:
-                return Entry(number, _envelope.decode(line), _record.decode(line))
+                decode = self._decode
+                return Entry(number, decode.envelope.decode(line), decode.record.decode(line))
             fields = upgraded(msgspec.json.decode(line), self._schema, self._upgrades)
-            record: Record = msgspec.convert(fields, Record)
-            return Entry(number, msgspec.convert(fields, Envelope), record)
+            old: Record = msgspec.convert(fields, Record)
+            return Entry(number, msgspec.convert(fields, Envelope), old)
         except msgspec.ValidationError as error:
             reason = f"this is not a record of schema {self._schema or SCHEMA_VERSION} ({error})"
             raise self._error(number, reason, _MEND) from error
