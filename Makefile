@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PROJECT := pyproject.toml game/__init__.py
 
 .DEFAULT_GOAL := help
-.PHONY: help play test slow bench lint types contract pins schema
+.PHONY: help play test slow lab reproduce bench lint types contract pins schema
 
 help:  ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -20,6 +20,12 @@ test: $(VENV)/all.stamp  ## set everything up (first time) and run the tests
 
 slow: $(VENV)/all.stamp  ## run the exhaustive tests
 	@$(BIN)/python -m pytest -m slow
+
+lab: $(VENV)/all.stamp  ## open the notebooks on the shipped simulated study
+	@$(if $(ANA_SOURCE),ANA_SOURCE=$(abspath $(ANA_SOURCE)) )$(BIN)/jupyter-lab --notebook-dir notebooks
+
+reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure and page from it
+	@$(BIN)/python -m analysis.reproduce out
 
 bench: $(VENV)/all.stamp  ## measure speed beside the floors, in one run
 	@$(BIN)/python -m tests.bench

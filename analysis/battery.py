@@ -14,7 +14,8 @@ from analysis.corrections import PValue, holm_by_name
 from analysis.equivalence import paired_row
 from analysis.exclusions import Rules, left_by, load_rules
 from analysis.figures import write_figures
-from analysis.groups import grouped
+from analysis.groups import group_shares, grouped
+from analysis.journals import StudyMode, Tick
 from analysis.mixed import mixed_model
 from analysis.order_effects import order_rows
 from analysis.ordinal import ordinal_rows
@@ -29,7 +30,7 @@ from analysis.posthoc import (
     marginal_means,
     simple_adaptivity_within_cell,
 )
-from analysis.power import EVEN, power_rows
+from analysis.power import power_rows
 from analysis.preferred import preferred_rows
 from analysis.reliability import alpha_rows
 from analysis.report import summary
@@ -118,7 +119,7 @@ def run_battery(randomised: Study, rules: Rules) -> BatteryResult:
                 outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
             },
         },
-        "power": power_rows(_shares(study)),
+        "power": power_rows(group_shares(study)),
     }
     problems = tuple(_problems(study, clustering, anovas))
     values, reasons = plain(tree)
@@ -194,23 +195,24 @@ def holm_across(anovas: Mapping[str, list[Effect] | Absent]) -> dict[str, dict[s
 
 
 def analyse_source(
-    source: Path, quiz: Path | None = None, figures: Path | None = None
+    source: Path,
+    quiz: Path | None = None,
+    figures: Path | None = None,
+    mode: StudyMode | None = None,
+    *,
+    check: bool = True,
+    tick: Tick = lambda _done, _all: None,
 ) -> BatteryResult:
-    """Read a source, run the battery, and write the figures if a folder is given.
+    """Read a source as `load_study` does, run the battery, and write the figures if a folder is
+    given.
 
-    Raises SourceError where the source cannot be read.
+    Raises SourceError or JournalError where the source cannot be read.
     """
-    result = run_battery(load_study(source, quiz), load_rules())
+    study = load_study(source, quiz, mode, check=check, tick=tick)
+    result = run_battery(study, load_rules())
     if figures is not None:
         write_figures(result.study, figures)
     return result
-
-
-def _shares(study: Study) -> tuple[float, ...]:
-    if not study.has("knowledge"):
-        return EVEN
-    sizes = study.participants["knowledge"].value_counts().reindex(list(KNOWLEDGE)).fillna(0)
-    return tuple(float(share) for share in sizes / sizes.sum())
 
 
 def _problems(

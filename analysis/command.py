@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 
 from analysis.battery import analyse_source
+from analysis.journals import MODES, StudyMode
 from game.errors import AnaError
 
 _PATH = click.Path(path_type=Path)
@@ -17,12 +19,24 @@ _PATH = click.Path(path_type=Path)
 @click.option("--json", "out", required=True, type=_PATH, metavar="OUT.json", help="Where to.")
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
-def command(source: Path, out: Path, figures: Path | None, quiz: Path | None) -> int:
-    """Analyse SOURCE, a study folder or one long CSV file, and write all numbers to OUT.json.
+@click.option("--mode", type=click.Choice(MODES),
+              help="Which sessions of a study folder, where there are several kinds.")  # fmt: skip
+@click.option("--verify/--no-verify", "check", default=True, show_default=True,
+              help="Play every mission again first; it must come out as recorded.")  # fmt: skip
+def command(
+    source: Path,
+    out: Path,
+    figures: Path | None,
+    quiz: Path | None,
+    mode: StudyMode | None,
+    check: bool,
+) -> int:
+    """Analyse SOURCE and write all numbers to OUT.json.
 
-    Exit status 2 where a planned analysis could not be made; all others are written all the same.
+    SOURCE is a study folder, the tables of one, or one long CSV file. Exit status 2 where a
+    planned analysis could not be made; all others are written all the same.
     """
-    result = analyse_source(source, quiz, figures)
+    result = analyse_source(source, quiz, figures, mode, check=check, tick=_tell)
     try:
         out.write_text(result.to_json(), encoding="utf-8")
     except OSError as error:
@@ -33,3 +47,9 @@ def command(source: Path, out: Path, figures: Path | None, quiz: Path | None) ->
         ) from error
     click.echo(result.table())
     return result.exit_status
+
+
+def _tell(done: int, of: int) -> None:
+    """Count the journals on a terminal's error stream."""
+    if sys.stderr.isatty():
+        click.echo(f"\r{done} of {of} journals read", err=True, nl=done == of)

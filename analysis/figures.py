@@ -208,6 +208,7 @@ def _models(study: Study, outcome: str) -> RoundModels:
 
 
 def _rounds_with_groups(study: Study) -> pd.DataFrame:
+    study.need_groups()
     return study.rounds.join(study.participants[["knowledge", "complexity"]], on="participant")
 
 

@@ -4,7 +4,9 @@ import pandas as pd
 
 from analysis.absent import Absent, Refusal, attempt
 from analysis.clustering import Clustering, knowledge_groups
+from analysis.power import EVEN
 from analysis.tables import Study
+from analysis.vocabulary import KNOWLEDGE
 
 
 def clustering_of(study: Study) -> Clustering:
@@ -36,3 +38,11 @@ def grouped(study: Study) -> tuple[Study, Clustering | Absent]:
             f"knowledge group than the source states, which is kept: {', '.join(moved)}"
         )
     return study, clustering
+
+
+def group_shares(study: Study) -> tuple[float, ...]:
+    """The shares of LOW, MED and HIGH; even ones where the study has no groups."""
+    if not study.has("knowledge"):
+        return EVEN
+    sizes = study.participants["knowledge"].value_counts().reindex(list(KNOWLEDGE)).fillna(0)
+    return tuple(float(share) for share in sizes / sizes.sum())

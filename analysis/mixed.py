@@ -240,8 +240,7 @@ def mixed_model(study: Study, outcome: str) -> Row:
     then those of the model with one mean a filled cell. Raises Refusal where there are no knowledge
     groups or the model cannot be fitted.
     """
-    if not study.has("knowledge"):
-        raise Refusal("there are no knowledge groups: neither stated nor formed from quiz scores")
+    study.need_groups()
     people = study.participants[["knowledge", "complexity"]]
     rows = study.rounds.join(people, on="participant").dropna(subset=[outcome, "knowledge"])
     if rows.empty:

@@ -39,6 +39,13 @@ class Study:
                 return True
         return False
 
+    def need_groups(self) -> None:
+        """Raise Refusal where there are no knowledge groups."""
+        if not self.has("knowledge"):
+            raise Refusal(
+                "there are no knowledge groups: neither stated nor formed from quiz scores"
+            )
+
     def without(self, participants: Iterable[str]) -> "Study":
         """The same study without these participants."""
         gone = list(participants)
@@ -163,8 +170,7 @@ def paired(study: Study, outcome: str) -> Paired:
 
     Raises Refusal where the study has no knowledge groups.
     """
-    if not study.has("knowledge"):
-        raise Refusal("there are no knowledge groups: neither stated nor formed from quiz scores")
+    study.need_groups()
     wide = both_rounds(study, outcome)
     people = study.participants.loc[wide.index]
     people = people[people["knowledge"].notna()]

@@ -102,18 +102,28 @@ class Terminal:
         """Collect output for a while. False once the program has ended."""
         end = time.perf_counter() + seconds
         while (left := end - time.perf_counter()) > 0:
-            if not select.select([self._descriptor], [], [], left)[0]:
+            if not select.select([self], [], [], left)[0]:
                 return True
-            try:
-                data = os.read(self._descriptor, 65536)
-            except OSError:
+            if not self.take():
                 return False
-            if not data:
-                return False
-            self.chunks.append(Chunk(time.perf_counter(), data))
-            for query, answer in _QUERIES.items():
-                if query in data:
-                    self.write(answer)
+        return True
+
+    def fileno(self) -> int:
+        """What `select` waits on for output."""
+        return self._descriptor
+
+    def take(self) -> bool:
+        """Collect the output that is there, or wait for some. False once the program has ended."""
+        try:
+            data = os.read(self._descriptor, 65536)
+        except OSError:
+            return False
+        if not data:
+            return False
+        self.chunks.append(Chunk(time.perf_counter(), data))
+        for query, answer in _QUERIES.items():
+            if query in data:
+                self.write(answer)
         return True
 
     def wait_for(self, text: str, seconds: float = 15) -> str:

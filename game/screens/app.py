@@ -41,6 +41,7 @@ from game.world.settings import MissionSettings
 
 if TYPE_CHECKING:
     from game.screens.home import HomeScreen
+    from game.screens.replay import ReplayScreen
     from game.screens.result import ResultScreen
     from game.screens.watch import WatchScreen
     from game.session.replay import Replay
@@ -241,16 +242,17 @@ class AnaApp(App[None], inherit_bindings=False):
         from game.session.replay import Replay
 
         self.live = None
-        if not message.complete:
-            self._step_back()
-            return
         try:
             replay = Replay(read_journal(message.journal))
             replay.seek(replay.duration_ms)
         except AnaError as error:
             self._say_or_fail("The journal cannot be read", error)
             return
-        self._replace(ResultScreen(tell(replay), message.journal))
+        story = tell(replay)
+        if message.complete or story.actions:
+            self._replace(ResultScreen(story, message.journal))
+        else:
+            self._step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         if message.what == "again" and self._options is not None:
@@ -281,6 +283,17 @@ class AnaApp(App[None], inherit_bindings=False):
         from game.screens.replay import ReplayScreen
 
         self.push_screen(ReplayScreen(replay))
+
+    def on_replay_screen_mission_wanted(self, message: ReplayScreen.MissionWanted) -> None:
+        from game.screens.replay import ReplayScreen
+        from game.session.replay import Replay
+
+        try:
+            replay = Replay(message.transcript, message.number)
+        except AnaError as error:
+            self._say_or_fail("This cannot be replayed", error)
+            return
+        self.switch_screen(ReplayScreen(replay))
 
     def on_replay_screen_left(self) -> None:
         if len(self.screen_stack) > 2:

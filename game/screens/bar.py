@@ -18,8 +18,13 @@ _EDGE = "\x1f"
 
 
 def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[Row]:
-    """Notice and instruction, wrapped into at least `LINES` rows of `columns`."""
+    """Notice and instruction, wrapped into at least `LINES` rows of `columns`.
+
+    A notice without an instruction, as at the end, is the text.
+    """
     style = "fresh" if fresh else "text"
+    if not guidance.text:
+        guidance = Guidance(guidance.notice)
     badge = f"{_EDGE}{guidance.notice}{_EDGE} " if guidance.notice else ""
     rows: list[Row] = []
     edges = badge.count(_EDGE)

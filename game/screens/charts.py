@@ -8,6 +8,8 @@ from typing import NamedTuple
 from game.screens.canvas import Row
 
 MINUTE_MS = 60_000
+_MARK_COLUMNS = 2
+"""At least so wide are the marks on the left, so that charts one below the other are in line."""
 _EIGHTHS = " ▁▂▃▄▅▆▇█"
 
 
@@ -34,7 +36,7 @@ def step_chart(
     `labels` are the values with a mark on the left, of which the first is the lowest and the last
     the highest shown.
     """
-    margin = max(len(text) for _, text in labels) + 1
+    margin = max(_MARK_COLUMNS, *(len(text) for _, text in labels)) + 1
     lowest, highest = labels[0][0], labels[-1][0]
 
     def line_of(value: int) -> int:
@@ -63,12 +65,14 @@ def area_chart(
     rows: int,
 ) -> list[Row]:
     """The area under the steps, from 0 to `highest`, in eighths of a row."""
-    margin = len(str(highest)) + 1
+    margin = max(_MARK_COLUMNS, len(str(highest))) + 1
     wide = columns - margin - 1
     values = _by_column(steps, end_ms, full_ms, wide)
     heights = [-(-8 * rows * (value or 0) // highest) for value in values]
     lines = [
-        "".join(_EIGHTHS[max(0, min(8, height - 8 * (rows - 1 - row)))] for height in heights)
+        "".join(
+            _EIGHTHS[max(0, min(8, height - 8 * (rows - 1 - row)))] for height in heights
+        ).ljust(wide)
         for row in range(rows)
     ]
     return _framed(title, lines, "area", {0: str(highest), rows - 1: "0"}, margin, full_ms)
@@ -109,13 +113,16 @@ def _framed(
     for number, line in enumerate(lines):
         mark = f"{marks.get(number, ''):>{margin - 1}} "
         body.append(((mark, "quiet"), ("┤" if number in marks else "│", "faint"), (line, style)))
-    ticks, names = ["─"] * wide, [" "] * wide
-    for minute in range(full_ms // MINUTE_MS + 1):
+    ticks, names = ["─"] * wide, [" "] * (wide + 1)
+    last = full_ms // MINUTE_MS
+    for minute in (0, last, *range(1, last)):
         at = (wide - 1) * minute * MINUTE_MS // full_ms
         ticks[at] = "┴"
         name = f"{minute}:00"
         start = max(0, min(at - 1, wide - len(name)))
-        names[start : start + len(name)] = name
+        end = start + len(name)
+        if not "".join(names[max(0, start - 1) : end + 1]).strip():
+            names[start:end] = name
     indent = " " * margin
     return [
         ((f"{indent} {title}", "title"),),

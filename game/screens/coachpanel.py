@@ -128,14 +128,19 @@ def _zone(evaluation: PosteriorEvaluated) -> str:
 
 def _belief(thoughts: Thoughts) -> list[Row]:
     """b^HR in numbers: what the coach thinks the rescuer knows."""
-    known = f"knows {len(thoughts.rooms_known)} rooms"
-    seen = f"{len(thoughts.victims_known)} victims"
+    known = f"knows {_counted(len(thoughts.rooms_known), 'room')}"
+    seen = _counted(len(thoughts.victims_known), "victim")
     rows: list[Row] = [((f"{known}, {seen}", "quiet"),)]
     if thoughts.ms_per_move is not None:
         rows.append(((f"{thoughts.ms_per_move / 1000:.2f} s a step", "quiet"),))
     else:
-        rows.append(((f"{thoughts.missteps} missteps, {thoughts.disobeyed} disobeyed", "quiet"),))
+        missteps = _counted(thoughts.missteps, "misstep")
+        rows.append(((f"{missteps}, {thoughts.disobeyed} disobeyed", "quiet"),))
     return rows
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def _listed(thoughts: Thoughts, building: Building, columns: int) -> list[Row]:
@@ -147,7 +152,7 @@ def _listed(thoughts: Thoughts, building: Building, columns: int) -> list[Row]:
     ranked = sorted(thoughts.evaluation.posterior.items(), key=lambda item: (-item[1], item[0]))
     for victim, chance in ranked[:LISTED]:
         step = sum(chance >= limit for limit in _STEPS)
-        name = _named(victims[victim], building, columns - 7)
+        name = _named(victims[victim], building, columns - 5)
         rows.append(((f"{chance:4.2f} ", f"likely-{step}"), *name))
     return rows
 

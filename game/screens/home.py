@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import ClassVar, NamedTuple
 
 from textual.app import ComposeResult
@@ -14,6 +15,7 @@ from textual.screen import Screen
 from game.screens.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
 from game.screens.preferences import Preferences
+from game.world import load_building
 
 _LETTERS = (
     "▄▀▀▀▄  █▄  █  ▄▀▀▀▄",
@@ -58,11 +60,16 @@ def scene_rows(glyphs: GlyphSet) -> list[Row]:
     return [tuple(glyphs[_SCENE_KINDS[mark]] for mark in line) for line in _SCENE]
 
 
+@cache
+def _building_name(shipped: str) -> str:
+    return load_building(shipped).name
+
+
 def menu_items(preferences: Preferences) -> tuple[Item, ...]:
     """The lines of the menu, in order."""
     return (
         Item("play", "Play"),
-        Item("building", "  in building", preferences.building.capitalize()),
+        Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
         Item("watch", "Watch a simulated rescuer"),
         Item("replay", "Replay a mission"),

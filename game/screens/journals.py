@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
+from functools import lru_cache
 from pathlib import Path
 from typing import ClassVar
 
@@ -11,9 +12,14 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
+from game.errors import AnaError
 from game.screens.canvas import BLANK, Canvas, Row
 from game.screens.keyline import KeyLine
+from game.screens.story import coach_name
+from game.session.missions import missions
 from game.session.play import JOURNAL
+from game.session.reader import read_journal
+from game.world.events import Rescued
 
 LISTED = 200
 
@@ -22,6 +28,26 @@ def newest_journals(folder: Path) -> tuple[Path, ...]:
     """The journals of free play in `folder`, the newest first."""
     found = {path: path.stat().st_mtime for path in folder.glob(f"*/{JOURNAL}")}
     return tuple(sorted(found, key=lambda path: -found[path]))[:LISTED]
+
+
+@lru_cache(maxsize=LISTED)
+def journal_text(path: Path) -> str:
+    """What was played in a journal, by whom if simulated, and what it came to."""
+    try:
+        transcript = read_journal(path)
+    except AnaError:
+        return "cannot be read"
+    played = missions(transcript)
+    if not played:
+        return "no mission"
+    first = played[0]
+    rescued = sum(isinstance(happening.record, Rescued) for happening in first.happened)
+    parts = [first.started.building, coach_name(first.started.coach), f"{rescued} rescued"]
+    if first.end == "abandoned":
+        parts.append("left early")
+    if transcript.started.simulated:
+        parts.append(f"simulated {transcript.started.rescuer}")
+    return " · ".join(parts)
 
 
 class JournalList(Canvas):
@@ -37,7 +63,7 @@ class JournalList(Canvas):
         for number, path in enumerate(journals[first : first + high], start=first):
             played = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
             style = "selected" if number == selected else "item"
-            text = f"  {played:%d %b %Y  %H:%M}   {path.parent.name}  "
+            text = f"  {played:%d %b %Y  %H:%M}  {journal_text(path)}  "
             rows.append(((text, style),))
         if not journals:
             rows.append((("  There are none yet: play a mission first.", "quiet"),))

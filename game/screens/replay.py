@@ -19,6 +19,9 @@ from game.screens.keyline import KeyLine
 from game.screens.mission import Failed
 from game.screens.missionview import MissionView
 from game.screens.status import clock_text
+from game.screens.story import coach_name
+from game.session.missions import missions
+from game.session.reader import Transcript
 from game.session.replay import Replay
 from game.world.events import Expired, Rescued
 
@@ -28,6 +31,21 @@ FRAME_S = 0.1
 """While playing, the screen follows ten times a second: a replay has no keys to answer."""
 
 _MARKS = {Rescued: ("✓", "rescued"), Expired: ("✗", "expired"), LevelChanged: ("◆", "level")}
+
+
+def mission_title(replay: Replay) -> str:
+    """Where the mission was played and with which coach; in a study, in which part of it."""
+    recorded = replay.recorded
+    entries = replay.transcript.entries
+    place = next(entry.envelope for entry in entries if entry.line == recorded.line)
+    practice = place.phase == "practice"
+    parts = [
+        f"round {place.round}" if place.round else "practice" if practice else "",
+        replay.building.name,
+        f"coach {coach_name(replay.started.coach)}",
+        "left early" if recorded.end == "abandoned" and not practice else "",
+    ]
+    return " · ".join(part for part in parts if part)
 
 
 def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) -> list[Row]:
@@ -45,10 +63,14 @@ def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) ->
     line[here] = line[here][0] if line[here][0] not in "━─" else "●", "moment"
     state = "▶ playing" if playing else "■ stopped"
     where = f"  {_at(replay.time_ms)} of {_at(replay.duration_ms)}"
+    legend: Row = (
+        ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" too late ", "quiet"),
+        ("◆", "level"), (" new level", "quiet"),
+    )  # fmt: skip
     return [
+        ((f" {mission_title(replay)}", "quiet"),),
         ((f" {state}", "strong"), (where, "quiet"),
-         (f"  {speed}x", "strong"), ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"),
-         (" too late ", "quiet"), ("◆", "level"), (" new level", "quiet")),
+         (f"  {speed}x", "strong"), *legend),
         ((" ", ""), *line),
     ]  # fmt: skip
 
@@ -59,14 +81,14 @@ def _at(time_ms: int) -> str:
 
 
 class Timeline(Canvas):
-    """The two rows under a replay."""
+    """The rows under a replay."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         "done", "faint", "quiet", "strong", "moment", "rescued", "expired", "level",
     }  # fmt: skip
 
     def __init__(self) -> None:
-        super().__init__([(), ()], id="timeline")
+        super().__init__([(), (), ()], id="timeline")
 
 
 class ReplayScreen(Screen[None]):
@@ -74,6 +96,14 @@ class ReplayScreen(Screen[None]):
 
     class Left(Message):
         """The viewer is done."""
+
+    class MissionWanted(Message):
+        """Mission `number` of the same journal, counted from 0."""
+
+        def __init__(self, transcript: Transcript, number: int) -> None:
+            super().__init__()
+            self.transcript = transcript
+            self.number = number
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space,p", "play", "Play or stop", id="replay.play"),
@@ -85,6 +115,8 @@ class ReplayScreen(Screen[None]):
         Binding("down,minus,j", "speed(-1)", "Slower", id="replay.slower"),
         Binding("n,full_stop", "event(1)", "Next event", id="replay.next"),
         Binding("b,comma", "event(-1)", "Event before", id="replay.before"),
+        Binding("right_square_bracket", "mission(1)", "Next mission", id="replay.mission.next"),
+        Binding("left_square_bracket", "mission(-1)", "Mission before", id="replay.mission.before"),
         Binding("escape,q,Q,ctrl+q,ctrl+c", "leave", "Leave", id="replay.leave"),
     ]
 
@@ -94,6 +126,8 @@ class ReplayScreen(Screen[None]):
         self._panel = CoachPanel(replay.building)
         self._view = MissionView(replay.started.settings, self._panel)
         self._timeline = Timeline()
+        recorded = missions(replay.transcript)
+        self._number, self._count = recorded.index(replay.recorded), len(recorded)
         self._playing: Timer | None = None
         self._speed = 0
         self._exact_ms = 0.0
@@ -102,9 +136,10 @@ class ReplayScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         yield self._view
         yield self._timeline
+        several = (("[ ]", f"{self._number + 1}/{self._count}"),) * (self._count > 1)
         yield KeyLine(
-            ("Space", "play"), ("← →", "5 s"), ("N B", "events"), ("↑ ↓", "speed"), ("Q", "leave"),
-            id="keys",
+            ("Space", "play"), ("← →", "5 s"), ("N B", "events"), ("↑ ↓", "speed"), *several,
+            ("Q", "leave"), id="keys",
         )  # fmt: skip
 
     def on_mount(self) -> None:
@@ -178,6 +213,12 @@ class ReplayScreen(Screen[None]):
     def action_speed(self, way: int) -> None:
         self._speed = max(0, min(self._speed + way, len(SPEEDS) - 1))
         self._show()
+
+    def action_mission(self, way: int) -> None:
+        """Go to the next mission of the journal, or to the one before, where there is one."""
+        number = self._number + way
+        if 0 <= number < self._count:
+            self.app.post_message(self.MissionWanted(self.replay.transcript, number))
 
     def action_leave(self) -> None:
         self.app.post_message(self.Left())

@@ -12,7 +12,7 @@ from textual.containers import VerticalScroll
 from textual.message import Message
 from textual.screen import Screen
 
-from game.screens.canvas import BLANK, Canvas, Row, beside
+from game.screens.canvas import BLANK, Canvas, Row, beside, width
 from game.screens.charts import area_chart, step_chart
 from game.screens.glyphs import HEADING_ARROWS
 from game.screens.keyline import KeyLine
@@ -25,7 +25,8 @@ from game.screens.minimap import (
     SmallMap,
     map_size,
 )
-from game.screens.story import Story
+from game.screens.status import clock_text
+from game.screens.story import Fate, Story
 from game.world.building import Severity, VictimSite
 from game.world.geometry import Cell
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
@@ -34,8 +35,18 @@ from game.world.observation import VictimState
 
 DEAF_S = 0.8
 """For so long keys do nothing, since the last ones were meant for the mission."""
-_CHART_ROWS = 5
 NARROWEST_CHART = 26
+HIGHEST_CHART = 24
+_LOW_CHART = 5
+_LEVEL_ROWS = ((9, 3), (16, 5), (30, 7))
+"""Below how many rows for both charts the one of levels has how many: odd, so that C2 is halfway.
+"""
+_FRAME_ROWS = 3
+"""What a chart takes besides its lines: title, axis and times."""
+_FATE_COLUMNS = 31
+_BELOW_ROWS = 2
+"""What stands under the page: where the journal is, and the keys."""
+_WAITING = VictimState.WAITING
 _NAMES = {1: "C1", 2: "C2", 3: "C3"}
 
 
@@ -67,7 +78,7 @@ def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
     else:
         pins = dict.fromkeys(story.path, ("•", "trail")) | pins
     for victim in building.victims:
-        pins[victim.cell] = victim_pin(victim, story.states[victim.id])
+        pins[victim.cell] = victim_pin(victim, story.fates[victim.id].state)
     pins[building.start] = HEADING_ARROWS[building.start_heading], "here/here"
     return SmallMap(plan, scale, tints).rows((1 << len(plan.tiles)) - 1, pins)
 
@@ -88,7 +99,7 @@ def rescue_chart(story: Story, columns: int, rows: int) -> list[Row]:
 def level_chart(story: Story, columns: int, rows: int) -> list[Row]:
     """The level of the coach's words over time, as in the paper's Fig. 10."""
     return step_chart(
-        "Level of the coach's words",
+        "Level of the coach",
         story.levels,
         [(level, _NAMES[level]) for level in (1, 2, 3)],
         story.until_ms,
@@ -112,31 +123,66 @@ def total_rows(story: Story) -> list[Row]:
         first = (*first, (f"   {story.score} points", "big"))
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
-    return [first, ((told, "quiet"),)]
+    left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
+    where = f"{story.building.name} · "
+    return [first, ((left, "big"), (where + told, "quiet"))]
 
 
-def result_rows(story: Story, columns: int, *, filled: bool) -> list[Row]:
-    """The whole page, `columns` wide."""
+def fate_rows(story: Story, columns: int) -> list[Row]:
+    """Whom the rescuer reached and when, then who came too late and who still waits, in as many
+    columns as fit."""
+    order = (VictimState.RESCUED, VictimState.EXPIRED, VictimState.WAITING)
+    fates = sorted(
+        story.fates.values(),
+        key=lambda fate: (order.index(fate.state), fate.at_ms or 0, fate.victim.id),
+    )
+    across = max(1, columns // _FATE_COLUMNS)
+    down = -(-len(fates) // across)
+    rows: list[Row] = []
+    for first in range(0, len(fates), down):
+        lines = [_fate_row(story, fate) for fate in fates[first : first + down]]
+        rows = beside(rows, lines, first // down * _FATE_COLUMNS) if rows else lines
+    return rows
+
+
+def _fate_row(story: Story, fate: Fate) -> Row:
+    site, reached = fate.victim, fate.state is VictimState.RESCUED
+    room = story.building.room_of(site)
+    name = room.name if room is not None else "hallway"
+    at = clock_text(fate.at_ms) if fate.at_ms is not None else ""
+    (mark, ink), (victim, colour) = victim_pin(site, fate.state), victim_pin(site, _WAITING)
+    return (
+        (mark if fate.at_ms is not None else " ", f"{ink}/dark"),
+        (" ", ""), (victim, f"{colour}/dark"),
+        (f" {at:>4}  ", "quiet"), (name[: _FATE_COLUMNS - 11], "strong" if reached else "quiet"),
+    )  # fmt: skip
+
+
+def result_rows(story: Story, columns: int, rows: int, *, filled: bool) -> list[Row]:
+    """The whole page, `columns` wide; what matters most is within the first `rows`."""
     area = path_map(story, columns=columns, filled=filled)
-    area_columns = max(sum(len(text) for text, _ in row) for row in area) + 2
-    rows = [BLANK, *total_rows(story), BLANK]
+    area_columns = max(map(width, area)) + 2
+    head = [BLANK, *total_rows(story), BLANK]
     if columns - area_columns >= NARROWEST_CHART:
         wide = columns - area_columns
-        high = max(3, min(9, (len(area) - 7) // 2))
-        charts = [*rescue_chart(story, wide, high), BLANK, *level_chart(story, wide, min(high, 5))]
-        return rows + beside(area, charts, area_columns)
+        lines = rows - len(head) - 2 * _FRAME_ROWS - 1
+        low = next((low for below, low in _LEVEL_ROWS if lines < below), 9)
+        high = max(3, min(HIGHEST_CHART, lines - low))
+        charts = [*rescue_chart(story, wide, high), BLANK, *level_chart(story, wide, low)]
+        left = [*area, BLANK, *fate_rows(story, area_columns - 2)]
+        return head + beside(left, charts, area_columns)
     half = columns // 2
     charts = beside(
-        rescue_chart(story, half - 2, _CHART_ROWS), level_chart(story, half, _CHART_ROWS), half
+        rescue_chart(story, half - 2, _LOW_CHART), level_chart(story, half - 1, _LOW_CHART), half
     )
-    return [*rows[1:], *area, *charts]
+    return [*head[1:], *area, *charts, BLANK, *fate_rows(story, columns)]
 
 
 class ResultPage(Canvas):
     """The page as a widget."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        *STYLES, *PIN_STYLES, "title", "quiet", "faint", "line", "area", "big",
+        *STYLES, *PIN_STYLES, "title", "quiet", "strong", "faint", "line", "area", "big",
     }  # fmt: skip
 
     def __init__(self, story: Story) -> None:
@@ -145,7 +191,8 @@ class ResultPage(Canvas):
 
     def on_resize(self, event: events.Resize) -> None:
         filled = not self.app.native_ansi_color
-        self.draw(result_rows(self._story, event.size.width, filled=filled))
+        rows = self.screen.size.height - _BELOW_ROWS
+        self.draw(result_rows(self._story, event.size.width, rows, filled=filled))
 
 
 class ResultScreen(Screen[None]):

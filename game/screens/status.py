@@ -63,7 +63,7 @@ def _counts(observation: Observation) -> Row:
 
 
 def _reds(observation: Observation, settings: MissionSettings) -> Row:
-    left = settings.red_expiry_ms - observation.time_ms
+    left = min(settings.red_expiry_ms, settings.duration_ms) - observation.time_ms
     red = SOLID[victim_kind(Severity.RED, VictimState.WAITING)].text
     if left <= 0:
         return (red, "seen-red"), (" out of time", "faint")
@@ -117,7 +117,10 @@ class StatusPanel(Canvas):
     def show(self, observation: Observation) -> None:
         """Draw the numbers of now."""
         self._observation = observation
-        self.draw(status_rows(observation, self._settings, self.size.width))
+        rows = status_rows(observation, self._settings, self.size.width)
+        if self.size.height == 1:
+            rows = [(*rows[0], ("   ", "quiet"), *rows[2])]
+        self.draw(rows)
 
     def on_resize(self) -> None:
         if self._observation is not None:

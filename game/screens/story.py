@@ -3,26 +3,42 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from game.coach.records import Disobeyed, InstructionIssued, LevelChanged, Misstep
+from game.coach.spec import CoachSpec
 from game.screens.charts import Step
 from game.session.replay import Replay
-from game.world.building import Building, Severity
+from game.world.building import Building, Severity, VictimSite
 from game.world.events import Acted, Expired, Outcome, Rescued
 from game.world.geometry import Cell
 from game.world.observation import VictimState
 from game.world.settings import MissionSettings
 
 
+class Fate(NamedTuple):
+    """What became of a victim, and when; None for one who still waits."""
+
+    victim: VictimSite
+    state: VictimState
+    at_ms: int | None
+
+
 @dataclass(frozen=True)
 class Story:
-    """A mission as a whole. `path` are the cells walked, the start first; `levels` are 1 to 3."""
+    """A mission as a whole. `path` are the cells walked, the start first; `levels` are 1 to 3.
+
+    `actions` counts what the rescuer did, blocked moves and turns included; `left` is true where
+    the player went before the end.
+    """
 
     building: Building
     settings: MissionSettings
     until_ms: int
+    left: bool
+    actions: int
     path: tuple[Cell, ...]
-    states: dict[str, VictimState]
+    fates: dict[str, Fate]
     rescues: tuple[Step, ...]
     levels: tuple[Step, ...]
     instructions: int
@@ -38,22 +54,26 @@ class Story:
         return sum(
             self.settings.points(victim.severity)
             for victim in self.building.victims
-            if self.states[victim.id] is VictimState.RESCUED
+            if self.fates[victim.id].state is VictimState.RESCUED
         )
 
     def count(self, severity: Severity, state: VictimState) -> int:
         return sum(
-            victim.severity is severity and self.states[victim.id] is state
-            for victim in self.building.victims
+            fate.victim.severity is severity and fate.state is state for fate in self.fates.values()
         )
+
+
+def coach_name(spec: CoachSpec) -> str:
+    """A coach in a few words, with its level where it keeps one."""
+    return spec.kind + (f" C{int(spec.level)}" if spec.level is not None else "")
 
 
 def tell(replay: Replay) -> Story:
     """The story of a recorded mission, up to where the replay stands."""
     building = replay.building
-    states = {victim.id: VictimState.WAITING for victim in building.victims}
+    fates = {victim.id: Fate(victim, VictimState.WAITING, None) for victim in building.victims}
     path, rescues, levels = [building.start], [Step(0, 0)], list[Step]()
-    kinds = {InstructionIssued: 0, Misstep: 0, Disobeyed: 0}
+    kinds = {Acted: 0, InstructionIssued: 0, Misstep: 0, Disobeyed: 0}
     for record in replay.records:
         if type(record) in kinds:
             kinds[type(record)] += 1
@@ -61,10 +81,14 @@ def tell(replay: Replay) -> Story:
             case Acted(outcome=Outcome.MOVED):
                 path.append(record.position)
             case Rescued():
-                states[record.victim] = VictimState.RESCUED
+                fates[record.victim] = Fate(
+                    fates[record.victim].victim, VictimState.RESCUED, record.at_ms
+                )
                 rescues.append(Step(record.at_ms, rescues[-1].value + 1))
             case Expired():
-                states[record.victim] = VictimState.EXPIRED
+                fates[record.victim] = Fate(
+                    fates[record.victim].victim, VictimState.EXPIRED, record.at_ms
+                )
             case LevelChanged():
                 levels.append(Step(record.at_ms, int(record.after)))
             case InstructionIssued() if not levels:
@@ -73,8 +97,10 @@ def tell(replay: Replay) -> Story:
         building=building,
         settings=replay.started.settings,
         until_ms=replay.time_ms,
+        left=replay.recorded.end == "abandoned",
+        actions=kinds[Acted],
         path=tuple(path),
-        states=states,
+        fates=fates,
         rescues=tuple(rescues),
         levels=tuple(levels),
         instructions=kinds[InstructionIssued],

@@ -18,6 +18,7 @@ from typing import NamedTuple
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError
 from game.session.records import StudyCopy
+from game.session.sink import make_folders
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -110,7 +111,7 @@ def new_study(
         )
     template = resources.files("game.study") / "template"
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        make_folders(folder)
         for name in (SETTINGS, TEXTS, ITEMS):
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:

@@ -7,6 +7,7 @@ lock dies with its process, so a crash never leaves it held.
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -60,6 +61,13 @@ class SessionEnded(Entry, frozen=True, tag="session_ended"):
     ending: Ending
 
 
+class CameBack(Entry, frozen=True, tag="came_back"):
+    """One marked as a drop-out takes part again, in the slot held before."""
+
+    participant: str
+    mode: Mode
+
+
 class SettingsAmended(Entry, frozen=True, tag="settings_amended"):
     """study.toml was changed after the first session, knowingly."""
 
@@ -77,7 +85,9 @@ class StudyClosed(Entry, frozen=True, tag="study_closed"):
     """Recruiting is over: no live slot is taken any more, and nothing need be concealed."""
 
 
-LedgerEntry = StudyCreated | SlotTaken | SessionEnded | SettingsAmended | Unblinded | StudyClosed
+LedgerEntry = (
+    StudyCreated | SlotTaken | SessionEnded | CameBack | SettingsAmended | Unblinded | StudyClosed
+)
 
 _decoder = msgspec.json.Decoder(LedgerEntry)
 
@@ -160,6 +170,24 @@ class Ledger:
                     SessionEnded(utc=self._now(), participant=participant, mode=mode, ending=ending)
                 )
 
+    def come_back(self, participant: str, mode: Mode) -> None:
+        """Let a drop-out take part again; of anybody else nothing is recorded.
+
+        From then on the slot is not given out again. Raises LedgerError where it has been.
+        """
+        with self._locked() as write:
+            entries = self.entries()
+            if ending_of(entries, participant, mode) != "dropped":
+                return
+            slot = slot_of(entries, participant, mode)
+            if slot is not None and _holders(entries, mode)[slot.slot] != participant:
+                raise LedgerError(
+                    f"the place of {participant} has gone to somebody else in the meantime",
+                    place=str(self.path.parent),
+                    mend="Nothing more is to be done; thank you for having taken part",
+                )
+            write(CameBack(utc=self._now(), participant=participant, mode=mode))
+
     def agree(self, settings_hash: str) -> None:
         """Make sure that the study runs under the settings with this hash.
 
@@ -233,7 +261,7 @@ class Ledger:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX)
             _drop_torn_tail(descriptor)
-            yield lambda entry: _append(descriptor, entry)
+            yield lambda entry: _append(descriptor, self.path, entry)
         finally:
             os.close(descriptor)
 
@@ -262,24 +290,28 @@ def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Slo
 
 
 def ending_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Ending | None:
-    """How a participant's session ended last; None while it has not."""
-    ending: Ending | None = None
-    for entry in entries:
-        if isinstance(entry, SessionEnded) and (entry.participant, entry.mode) == (
+    """How a participant's session ended last; None while it has not, or goes on again."""
+    for entry in reversed(entries):
+        if isinstance(entry, SessionEnded | CameBack) and (entry.participant, entry.mode) == (
             participant,
             mode,
         ):
-            ending = entry.ending
-    return ending
+            return entry.ending if isinstance(entry, SessionEnded) else None
+    return None
 
 
-def _next_slot(entries: Sequence[LedgerEntry], mode: Mode, refill: bool) -> tuple[int, bool]:
-    """The next slot of a mode, and whether it was somebody's before."""
-    holders = {
+def _holders(entries: Sequence[LedgerEntry], mode: Mode) -> dict[int, str]:
+    """Who holds each slot of a mode, or held it last."""
+    return {
         entry.slot: entry.participant
         for entry in entries
         if isinstance(entry, SlotTaken) and entry.mode == mode
     }
+
+
+def _next_slot(entries: Sequence[LedgerEntry], mode: Mode, refill: bool) -> tuple[int, bool]:
+    """The next slot of a mode, and whether it was somebody's before."""
+    holders = _holders(entries, mode)
     if refill:
         for slot, holder in sorted(holders.items()):
             if ending_of(entries, holder, mode) in ("dropped", "withdrawn"):
@@ -287,15 +319,19 @@ def _next_slot(entries: Sequence[LedgerEntry], mode: Mode, refill: bool) -> tupl
     return len(holders), False
 
 
-def _append(descriptor: int, entry: LedgerEntry) -> None:
+def _append(descriptor: int, path: Path, entry: LedgerEntry) -> None:
     line = msgspec.json.encode(entry) + b"\n"
-    written = os.write(descriptor, line)
-    if written != len(line):
+    try:
+        if os.write(descriptor, line) != len(line):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        os.fsync(descriptor)
+    except OSError as error:
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
         raise LedgerError(
-            "the ledger could not be written whole (is the disk full?)",
-            mend="Free some space; the entry does not count",
-        )
-    os.fsync(descriptor)
+            "the disk is full" if full else f"the ledger cannot be written ({error.strerror})",
+            place=str(path),
+            mend="Free some space and try again; the entry does not count",
+        ) from error
 
 
 def _drop_torn_tail(descriptor: int) -> None:

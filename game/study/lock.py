@@ -13,6 +13,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+from game.session.sink import make_folders
 from game.study.folder import StudyError
 
 LOCK = "lock"
@@ -41,7 +42,7 @@ class SessionLock:
         """Lock the session in `home`. Raises SessionBusy, or StudyError where that cannot be."""
         self.path = home / LOCK
         try:
-            home.mkdir(mode=0o700, parents=True, exist_ok=True)
+            make_folders(home)
             self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o600)
         except OSError as error:
             raise StudyError(

@@ -201,13 +201,16 @@ def open_session(
     tells that it was taken from a process that had written nothing for so long. A simulated
     session gives its `clock` and `MemorySink`.
     Raises JournalError for a journal that cannot be written or read, LedgerError for a study that
-    was changed, StudyError for a participant who has withdrawn.
+    was changed or a drop-out's place that somebody else has, StudyError for a participant who has
+    withdrawn.
     """
     clock = clock or SystemClock()
     path = study.home(identity) / JOURNAL
     study.ledger.agree(study.copy.sha256)
-    entries = study.ledger.entries()
-    if ending_of(entries, identity.participant, identity.mode) == "withdrawn":
+    ending = ending_of(study.ledger.entries(), identity.participant, identity.mode)
+    if ending == "dropped":
+        study.ledger.come_back(identity.participant, identity.mode)
+    if ending == "withdrawn":
         raise StudyError(
             f"{identity.participant} has withdrawn from the study",
             place=str(study.folder),

@@ -24,6 +24,7 @@ from game.study.ledger import (
     SlotTaken,
     StudyCreated,
     Unblinded,
+    ending_of,
     is_closed,
 )
 from game.study.roll import Roll, SessionStatus
@@ -145,12 +146,12 @@ def _totals(
     settings: StudySettings, entries: Sequence[LedgerEntry], sessions: Sequence[SessionStatus]
 ) -> Totals:
     states = Counter(session.state for session in sessions if session.mode == "live")
-    endings = {
-        entry.participant: entry.ending
+    people = {
+        entry.participant
         for entry in entries
         if isinstance(entry, SessionEnded) and entry.mode == "live"
     }
-    ended = Counter(endings.values())
+    ended = Counter(ending_of(entries, person, "live") for person in people)
     created = [entry.blocks for entry in entries if isinstance(entry, StudyCreated)]
     slots = {
         entry.slot for entry in entries if isinstance(entry, SlotTaken) and entry.mode == "live"

@@ -209,7 +209,7 @@ class Playing:
         """Leave the mission at its time `now_ms`, if it has neither ended nor been left."""
         if self.run is not None and not self.run.ended and not self._left:
             self._left = True
-            leave_mission(self.run, self.journal, now_ms)
+            leave_mission(self.run, self.journal, now_ms, "leg_done" if self.done else "quit")
 
     def tick(self, now_ms: int) -> None:
         """Record how long the mission has been on the screen if a second has gone by."""

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from analysis.absent import SourceError
-from analysis.exclusions import left_by
+from analysis.exclusions import left_by, load_rules
+from analysis.flow import flow_rows
 from analysis.groups import grouped
 from analysis.journals import read_study_folder
 from analysis.recorded import ANALYSED, Recorded
@@ -89,7 +90,7 @@ def test_a_table_of_something_else_is_named(recorded: Recorded, tmp_path: Path) 
 def test_no_sessions(kind: str, tmp_path: Path) -> None:
     if kind != "nothing":
         (tmp_path / "study.toml").touch()
-    with pytest.raises(SourceError, match="no sessions|neither a study folder"):
+    with pytest.raises(SourceError, match=r"no sessions|neither a study folder"):
         load_study(tmp_path)
 
 
@@ -155,10 +156,14 @@ def test_a_newer_schema_is_named(copy: Path) -> None:
 def test_a_torn_and_unfinished_session_is_told(copy: Path) -> None:
     whole = journal(copy).read_bytes()
     journal(copy).write_bytes(whole[: int(len(whole) * 0.8)])
-    study = load_recorded(copy, check=False).study()
+    torn = load_recorded(copy, check=False)
+    study = torn.study()
+    flow = {row["step"]: row["people"] for row in flow_rows(torn, load_rules())}
+    assert flow["were randomised"] == 3
+    assert flow["finished both rounds"] == 2
     assert any("unfinished line" in note and "S0001" in note for note in study.notes)
     assert "randomised and not finished: S0001" in study.notes
-    assert study.rounds.set_index("participant").loc["S0001", "preference"].isna().any()
+    assert study.rounds.query("participant == 'S0001'")["preference"].isna().any()
 
 
 def test_nobody_randomised(copy: Path) -> None:
@@ -184,7 +189,9 @@ def test_algorithm_1_again_gives_the_recorded_levels(recorded: Recorded) -> None
         assert stretches(mission) == told
         assert stretches(mission, prior_mass=mission.rule.prior_mass) == told
         assert len(told) > 2
-        assert shares(mission, lower_below=0.001)[0] == 0
+        assert shares(mission, lower_below=0.001)[0] <= shares(mission)[0]
+        assert shares(mission, lower_below=0.79)[0] > 0.5
+        assert shares(mission).sum() == pytest.approx(1)
 
 
 @given(*[st.floats(0.001, 0.999)] * 4)

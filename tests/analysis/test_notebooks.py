@@ -8,9 +8,7 @@ from analysis.execute import executed, html, notebooks, read, title
 from analysis.style import SIMULATED
 from tests.analysis.simulated import SHIPPED
 
-pytestmark = pytest.mark.xdist_group("notebooks")
 PARAMETER = 'SOURCE = "../data/simulated"'
-CURVES_ALONE = "10_power"
 
 
 def test_all_questions_are_there_in_order() -> None:

@@ -5,17 +5,20 @@ from __future__ import annotations
 import gc
 import time
 from dataclasses import dataclass
+from random import Random
 from statistics import quantiles
 
 from game.coach.api import Briefing, Coach
 from game.coach.records import CoachRecord, GoalSet
+from game.coach.route import RoutePlanner
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
-from game.session.play import start_in_memory
+from game.session.play import CoachBuilder, start_in_memory
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import MissionEvent
+from game.world.floodfill import Floodfills
 from game.world.observation import Guidance, Observation
 from game.world.settings import MissionSettings
 
@@ -71,6 +74,10 @@ def reader(building: Building) -> LiteralReader:
     return LiteralReader(SETTINGS.controls, {room.name: room.label for room in building.rooms})
 
 
+def _always(coach: Coach) -> CoachBuilder:
+    return lambda _spec, _briefing: coach
+
+
 def coach_costs(names: tuple[str, ...], seeds: range) -> CoachCosts:
     """Of all answers of ANA in missions of a literal reader, garbage collection off."""
     steps_ms: list[float] = []
@@ -78,21 +85,37 @@ def coach_costs(names: tuple[str, ...], seeds: range) -> CoachCosts:
     for name in names:
         building = load_building(name)
         for seed in seeds:
-            coach = TimedCoach(parse_coach("ana"), Briefing(building, SETTINGS, seed))
             run, _ = start_in_memory(
-                building,
-                SETTINGS,
-                parse_coach("ana"),
-                seed,
-                rescuer="literal",
-                build=lambda _spec, _briefing, coach=coach: coach,
+                building, SETTINGS, parse_coach("ana"), seed, rescuer="literal", build=TimedCoach
             )
+            coach = run.coach
+            assert isinstance(coach, TimedCoach)
             gc.disable()
             drive(run, reader(building))
             gc.enable()
             steps_ms += coach.steps_ms
             plans_ms += coach.plans_ms
     return CoachCosts(_p99(steps_ms), _p99(plans_ms))
+
+
+def route_p99_ms(names: tuple[str, ...], seed: int, samples: int = 300) -> float:
+    """Of routes planned anew from random places, for random victims still waiting."""
+    random = Random(seed)
+    spent_ms: list[float] = []
+    for name in names:
+        building = load_building(name)
+        floodfills = Floodfills(building.plan)
+        sites = {site.id: site for site in building.victims}
+        planner = RoutePlanner(floodfills, SETTINGS, sites, seed=seed)
+        places = [cell for room in building.rooms for cell in room.cells]
+        for _ in range(samples):
+            left = random.sample(list(sites), random.randint(1, len(sites)))
+            waiting = {victim: sites[victim] for victim in left}
+            here, at_ms = random.choice(places), random.randrange(SETTINGS.duration_ms)
+            start = time.perf_counter()
+            planner.plan(here, at_ms, waiting, ms_per_move=SETTINGS.pace_ms)
+            spent_ms.append(1000 * (time.perf_counter() - start))
+    return _p99(spent_ms)
 
 
 def mission_s(name: str) -> float:

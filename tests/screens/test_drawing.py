@@ -139,6 +139,12 @@ def test_the_last_seconds_and_a_victim_in_reach_stand_out(ward: Building) -> Non
     assert any(style == "hurry" for _, style in status_rows(mission.observation(), rules, 26)[0])
 
 
+def test_reds_have_no_more_time_than_the_mission(ward: Building) -> None:
+    settings = MissionSettings(duration_ms=12_000)
+    seen = Mission(ward, settings).observation(None)
+    assert "0:12 for reds" in "\n".join(plain(status_rows(seen, settings, 26)))
+
+
 def test_treatment_progress_grows(ward: Building) -> None:
     victim = ward.victims[0]
     mission = Mission(Building(**{**vars(ward), "start": victim.cell}), MissionSettings())
@@ -159,6 +165,21 @@ def test_charts_reach_their_last_value() -> None:
     lines = plain(step_chart("L", levels, labels, 240_000, 240_000, columns=60, rows=3))
     assert [line[:2] for line in lines[1:4]] == ["C3", "C2", "C1"]
     assert lines[1].endswith("━") and "┓" in lines[2] and "┏" in lines[1]
+
+
+@given(st.integers(12, 120), st.integers(1, 12))
+def test_times_under_a_chart_stand_apart(columns: int, minutes: int) -> None:
+    lines = plain(area_chart("R", [Step(0, 0)], 4, 0, minutes * 60_000, columns=columns, rows=3))
+    times = lines[-1].split()
+    assert times[0] == "0:00" and all(len(time.split(":")[1]) == 2 for time in times)
+    assert times == sorted(set(times), key=lambda time: int(time.split(":")[0]))
+
+
+def test_charts_one_below_the_other_are_in_line() -> None:
+    steps, labels = [Step(0, 2)], [(1, "C1"), (2, "C2"), (3, "C3")]
+    area = plain(area_chart("R", steps, 6, 9, 240_000, columns=60, rows=4))
+    levels = plain(step_chart("L", steps, labels, 9, 240_000, columns=60, rows=3))
+    assert area[-2].index("└") == levels[-2].index("└") and area[-1] == levels[-1]
 
 
 def test_the_gauge_marks_both_thresholds() -> None:

@@ -20,12 +20,16 @@ from game.screens.app import AnaApp, PlayOptions, run_home, run_play
 from game.screens.canvas import Canvas, plain
 from game.screens.dialogs import Help, Notice, Question, TooSmall
 from game.screens.home import HomeScreen
+from game.screens.journals import JournalsScreen
 from game.screens.mission import MissionScreen
 from game.screens.replay import ReplayScreen
-from game.screens.result import ResultScreen
+from game.screens.result import ResultScreen, result_rows
+from game.screens.story import tell
 from game.screens.watch import WatchScreen
+from game.session.play import begin_mission, end_free_play, start_in_memory
 from game.session.reader import read_journal
-from game.session.records import Paused, SessionEnded, Unpaused
+from game.session.records import MissionAbandoned, Paused, SessionEnded, Unpaused
+from game.session.replay import Replay
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
@@ -137,6 +141,69 @@ async def test_leaving_is_asked_about(open_app: Open, key: str) -> None:
             await asyncio.sleep(0.02)
         assert app.return_code == 0
         assert isinstance(read_journal(mission.journal).entries[-1].record, SessionEnded)
+
+
+async def test_a_mission_left_after_something_was_done_comes_to_its_result(open_app: Open) -> None:
+    async with open_app() as (_, pilot):
+        await until(pilot, MissionScreen)
+        await press(pilot, "up")
+        await asyncio.sleep(0.3)
+        await press(pilot, "q", "y")
+        result = await until(pilot, ResultScreen)
+        assert "Left after 0:0" in shown(result) and "steps 1" in shown(result)
+
+
+def write_two_missions(folder: Path, ward: Building) -> Path:
+    """A journal of two missions, the first of C1 and the second of C2."""
+    path, settings = folder / "journal.jsonl", MissionSettings()
+    first, journal = start_in_memory(
+        ward, settings, parse_coach("static", 1), 1, rescuer="literal", path=path
+    )
+    first.advance(1_000)
+    journal.append(MissionAbandoned(1_000, "quit"))
+    second = begin_mission(journal, ward, settings, parse_coach("static", 2), 2)
+    second.advance(1_000)
+    end_free_play(second, journal, 1_000)
+    return path
+
+
+async def test_a_replay_steps_through_the_missions_of_a_journal(
+    open_app: Open, tmp_path: Path, ward: Building
+) -> None:
+    written = write_two_missions(tmp_path, ward)
+    async with open_app(lambda app: app.replay(written)) as (_, pilot):
+        replay = await until(pilot, ReplayScreen)
+        assert "static C1" in shown(replay) and "1/2" in shown(replay)
+        await press(pilot, "left_square_bracket", "right_square_bracket")
+        await pilot.pause()
+        replay = await until(pilot, ReplayScreen)
+        assert "static C2" in shown(replay) and "2/2" in shown(replay)
+        await press(pilot, "right_square_bracket")
+        assert await until(pilot, ReplayScreen) is replay, "there is no third mission"
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(77, 22), (117, 38), (197, 58)])
+def test_both_charts_stand_on_the_first_page_and_use_its_height(
+    tmp_path: Path, ward: Building, columns: int, rows: int
+) -> None:
+    replay = Replay(read_journal(write_two_missions(tmp_path, ward)))
+    replay.seek(replay.duration_ms)
+    lines = plain(result_rows(tell(replay), columns, rows, filled=True))
+    titles = [i for i, line in enumerate(lines) if "Rescued" in line or "Level of the" in line]
+    assert len(titles) == 2 and rows - 18 <= len(lines) <= rows
+    assert "Left after 0:01" in lines[2]
+    assert [line.split()[0] for line in lines if "Test Lab" in line][-1] == "●", "still waiting"
+
+
+async def test_the_journals_are_listed_by_what_was_played(open_app: Open, tmp_path: Path) -> None:
+    async with open_app(duration_ms=1_000) as (_, pilot):
+        await until(pilot, ResultScreen)
+    async with open_app() as (app, pilot):
+        await until(pilot, MissionScreen)
+        app._choose_journal()
+        journals = await until(pilot, JournalsScreen)
+        await pilot.pause()
+        assert "Ward · static C1 · 0 rescued" in shown(journals)
 
 
 async def test_ctrl_p_opens_nothing(open_app: Open) -> None:

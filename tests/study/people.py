@@ -165,9 +165,10 @@ def take_part(
     agrees: bool = True,
     labels: bool = True,
     moment: Callable[[str], None] = lambda _: None,
+    clock: VirtualClock | None = None,
 ) -> tuple[str, Scripted]:
     """Lead a scripted participant on; the outcome, and who it was."""
-    clock = VirtualClock()
+    clock = clock or VirtualClock()
     person = Scripted(clock, agrees=agrees, labels=labels, moment=moment)
     session = open_session(study, identity, TERMINAL, clock=clock, sink=sink)
     return asyncio.run(conduct(session, person)), person

@@ -21,6 +21,7 @@ from game.session.records import (
     Declined,
     Exposed,
     FreeText,
+    MissionAbandoned,
     MissionStarted,
     PhaseEnded,
     PhaseStarted,
@@ -37,12 +38,17 @@ from game.session.records import (
 from game.session.sink import FileSink, MemorySink
 from game.session.verify import verify
 from game.study.conduct import instructor
-from game.study.folder import Study, open_study
+from game.study.dropout import drop_out
+from game.study.folder import Identity, Study, open_study
+from game.study.ledger import CameBack, LedgerError, SlotTaken, ending_of, slot_of
 from game.study.ledger import SessionEnded as LedgerEnded
-from game.study.ledger import SlotTaken, ending_of
+from game.study.lock import SessionBusy, SessionLock
+from game.study.practice import LEGS
 from game.study.protocol import TIMELINE, Step, progress
 from game.world.events import Acted
 from tests.study.people import MISSION_MS, P01, journal_of, small_study, take_part
+
+P05 = Identity("live", "P05")
 
 
 def step_of(entry: Entry) -> Step:
@@ -227,7 +233,7 @@ def test_before_consent_nothing_is_written(tmp_path: Path) -> None:
     assert not study.home(P01).exists()
 
 
-@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(share=st.floats(0, 1))
 def test_a_session_killed_at_any_byte_goes_on_and_loses_nothing(
     finished: Study, tmp_path_factory: pytest.TempPathFactory, share: float
@@ -353,6 +359,61 @@ def test_a_changed_study_is_refused_until_it_is_amended(copy: Study) -> None:
     take_part(changed)
     (amended,) = records(changed, StudyAmended)
     assert (amended.study, amended.why) == (changed.copy, "more time was needed")
+
+
+def test_a_drop_out_may_come_back_to_a_place_nobody_else_has(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study", refill_dropouts="true")
+    slot = dropped_out(study, P05)
+    assert take_part(study, P05)[0] == "over"
+    entries = study.ledger.entries()
+    assert ending_of(entries, "P05", "live") == "finished"
+    assert sum(isinstance(entry, CameBack) for entry in entries) == 1
+    later = study.ledger.allocate("P06", "live", refill=True)
+    assert (later.slot, later.refill) == (slot + 1, False)
+
+
+def test_a_drop_out_whose_place_was_given_away_is_told_so(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study", refill_dropouts="true")
+    slot = dropped_out(study, P05)
+    before = (study.home(P05) / "journal.jsonl").read_bytes()
+    assert study.ledger.allocate("P06", "live", refill=True).slot == slot
+    for _ in range(2):
+        with pytest.raises(LedgerError, match="to somebody else in the meantime"):
+            take_part(study, P05)
+    assert (study.home(P05) / "journal.jsonl").read_bytes() == before
+    assert ending_of(study.ledger.entries(), "P05", "live") == "dropped"
+
+
+def test_nobody_is_dropped_while_taking_part(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+    dropped_out(study, P05)
+    lock = SessionLock(study.home(P05))
+    with pytest.raises(SessionBusy):
+        drop_out(study, P05)
+    lock.release()
+
+
+def dropped_out(study: Study, identity: Identity) -> int:
+    """Let a participant leave in the label phase and be marked as a drop-out; their slot."""
+
+    class Gone(Exception):
+        pass
+
+    def leave(what: str) -> None:
+        if what == "label":
+            raise Gone
+
+    with pytest.raises(Gone):
+        take_part(study, identity, moment=leave)
+    drop_out(study, identity)
+    taken = slot_of(study.ledger.entries(), identity.participant, identity.mode)
+    assert taken is not None
+    return taken.slot
+
+
+def test_a_leg_of_practice_ends_as_done(finished: Study) -> None:
+    left = records(finished, MissionAbandoned)
+    assert [record.reason for record in left] == ["leg_done"] * LEGS
 
 
 def test_a_simulated_session_is_of_the_same_form(tmp_path: Path, finished: Study) -> None:

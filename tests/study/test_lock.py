@@ -80,3 +80,15 @@ def test_a_pid_in_a_lock_that_nobody_holds_is_not_touched(tmp_path: Path) -> Non
     assert bystander.poll() is None
     bystander.communicate(b"\n")
     assert bystander.returncode == 0
+
+
+def test_every_folder_made_for_a_session_is_private(tmp_path: Path) -> None:
+    before = os.umask(0)
+    try:
+        SessionLock(tmp_path / "sessions" / "live" / "P01").release()
+    finally:
+        os.umask(before)
+    made = [path for path in tmp_path.rglob("*") if path.is_dir()]
+    assert [path.stat().st_mode & 0o777 for path in made] == [0o700] * 3
+    lock = tmp_path / "sessions" / "live" / "P01" / LOCK
+    assert lock.stat().st_mode & 0o777 == 0o600

@@ -7,13 +7,18 @@ from typing import ClassVar
 
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.screen import ModalScreen
 
+from game.screens.keyline import KeyLine
 from game.screens.live import LiveMission, PacedClock
 from game.screens.mission import MissionScreen
-from game.screens.study.base import Frame, Stage
+from game.screens.study.base import Frame, Stage, body, heading
+from game.screens.study.pages import Signs
 from game.screens.study.timed import TICK_S
 from game.session.play import JOURNAL
 from game.study.tasks import Playing
+from game.study.texts import Page
 
 
 class StudyMission(LiveMission):
@@ -34,6 +39,30 @@ class StudyMission(LiveMission):
             self.task.tick(self.now_ms())
 
 
+class Reminder(ModalScreen[None]):
+    """The page of practice on walking and signs, over a mission that goes on."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("question_mark,f1,escape,enter,q,space", "close", id="reminder.close"),
+        Binding("ctrl+q,ctrl+c", "close", id="reminder.close.ctrl"),
+    ]
+
+    def __init__(self, frame: Frame, page: Page, *, turning: bool) -> None:
+        super().__init__()
+        self._frame, self._page, self._turning = frame, page, turning
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog wide"):
+            with VerticalScroll():
+                yield heading(self._page)
+                yield body(self._page)
+                yield Signs(turning=self._turning)
+            yield KeyLine(("Enter", self._frame.words.go_on))
+
+    def action_close(self) -> None:
+        self.dismiss()
+
+
 class StudyMissionScreen(MissionScreen):
     """`q` asks whether to stop taking part, since a mission cannot be left alone."""
 
@@ -42,9 +71,10 @@ class StudyMissionScreen(MissionScreen):
     ]
     live: StudyMission
 
-    def __init__(self, frame: Frame, live: StudyMission) -> None:
+    def __init__(self, frame: Frame, live: StudyMission, reminder: Page) -> None:
         super().__init__(live, live.task.home / JOURNAL)
         self.frame = frame
+        self.reminder = reminder
 
     def compose(self) -> ComposeResult:
         with Stage(self.frame):
@@ -66,7 +96,8 @@ class StudyMissionScreen(MissionScreen):
             self._finish()
 
     def action_help(self) -> None:
-        """The keys are on the panel; the rest was taught in practice."""
+        turning = self.live.settings.controls == "turn"
+        self.app.push_screen(Reminder(self.frame, self.reminder, turning=turning))
 
     def action_leave(self) -> None:
         self.app.push_screen(self.frame.stop_question(), self._left)

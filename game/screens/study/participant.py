@@ -67,7 +67,7 @@ class ScreenParticipant:
         app = self._app
         app.live = StudyMission(task)
         app.mission_over = asyncio.get_running_loop().create_future()
-        screen = StudyMissionScreen(self._frame, app.live)
+        screen = StudyMissionScreen(self._frame, app.live, self._texts.lessons.walking)
         try:
             await app.push_screen(screen)
             complete = await app.mission_over

@@ -48,12 +48,13 @@ class Terminal:
         self.master, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 120, 0, 0))
         command = ["study", "run", str(study.folder), "--participant", "P01", "--pilot"]
+        told = {name: os.environ[name] for name in os.environ if name not in ("LINES", "COLUMNS")}
         self.process = subprocess.Popen(
             [sys.executable, "-c", AT_ITS_OWN_TERMINAL, "-m", "game", *command],
             stdin=slave,
             stdout=slave,
             stderr=slave,
-            env={**os.environ, "TERM": "xterm-256color"},
+            env={**told, "TERM": "xterm-256color"},
             start_new_session=True,
         )
         os.close(slave)
@@ -77,6 +78,16 @@ class Terminal:
         while not ready():
             assert time.monotonic() < end, self.output[-3000:].decode(errors="replace")
             self.read_for(0.05)
+
+    def enter_until(self, ready: Callable[[], bool]) -> None:
+        """Press Enter, again and again, until `ready`: a page is deaf for a moment."""
+
+        def pressed() -> bool:
+            self.press(b"\r")
+            self.read_for(0.2)
+            return ready()
+
+        self.until(pressed)
 
     def close(self) -> None:
         with contextlib.suppress(ProcessLookupError):
@@ -123,9 +134,7 @@ def test_killed_while_memorising_and_back(study: Study, opened: Callable[[], Ter
     rewind(study, Step("memorise", 1))
     first = opened()
     first.until(lambda: b"Memorise the map" in first.output)
-    first.read_for(0.5)
-    first.press(b"\r")
-    first.until(lambda: bool(newest(study, Exposed, 1)))
+    first.enter_until(lambda: bool(newest(study, Exposed, 1)))
     first.press(FROM_THE_KEYBOARD)
     first.read_for(0.3)
     assert first.process.poll() is None
@@ -135,9 +144,7 @@ def test_killed_while_memorising_and_back(study: Study, opened: Callable[[], Ter
     assert isinstance(seen, Exposed)
     second = opened()
     second.until(lambda: b"Memorise the map" in second.output)
-    second.read_for(0.5)
-    second.press(b"\r")
-    second.until(lambda: bool(newest(study, PhaseEnded, 2)))
+    second.enter_until(lambda: bool(newest(study, PhaseEnded, 2)))
     started = newest(study, PhaseStarted, 2)[0].record
     assert started == PhaseStarted(5_000 - seen.exposure_ms, continued=True)
     ended = newest(study, PhaseEnded, 2)[0]
@@ -149,9 +156,7 @@ def test_hung_up_in_mid_mission_and_back(study: Study, opened: Callable[[], Term
     rewind(study, Step("mission", 1))
     first = opened()
     first.until(lambda: b"Your mission" in first.output)
-    first.read_for(0.5)
-    first.press(b"\r")
-    first.until(lambda: bool(newest(study, Exposed, 1)))
+    first.enter_until(lambda: bool(newest(study, Exposed, 1)))
     first.process.send_signal(signal.SIGHUP)
     first.read_for(1)
     assert first.process.wait(5) == 128 + signal.SIGHUP
