@@ -18,18 +18,26 @@ STATUS_INTERRUPTED = 130
 @click.group(
     cls=LazyGroup,
     commands=[
-        LazyCommand("play", "game.play_cli:play", "Play a mission now."),
-        LazyCommand("watch", "game.watch_cli:watch", "Watch a simulated rescuer play."),
+        LazyCommand("play", "game.commands.play:play", "Play a mission now."),
+        LazyCommand("watch", "game.commands.watch:watch", "Watch a simulated rescuer play."),
         LazyCommand(
-            "replay", "game.play_cli:replay_journal", "Replay a mission with the coach's thoughts."
+            "replay",
+            "game.commands.play:replay_journal",
+            "Replay a mission with the coach's thoughts.",
         ),
-        LazyCommand("verify", "game.verify_cli:command", "Prove that journals replay to the same."),
-        LazyCommand("building", "game.buildings_cli:group", "Check a building file, or show one."),
-        LazyCommand("study", "game.study_cli:group", "Set up and run the experiment."),
-        LazyCommand("simulate", "game.simulate_cli:command", "Simulate a whole study."),
+        LazyCommand(
+            "verify", "game.commands.verify:command", "Prove that journals replay to the same."
+        ),
+        LazyCommand(
+            "building", "game.commands.building:group", "Check a building file, or show one."
+        ),
+        LazyCommand("study", "game.commands.study:group", "Set up and run the experiment."),
+        LazyCommand("simulate", "game.commands.simulate:command", "Simulate a whole study."),
         LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
-        LazyCommand("doctor", "game.doctor:command", "Check that this terminal can play."),
-        LazyCommand("completion", "game.completion:command", "Print a shell's completion script."),
+        LazyCommand("doctor", "game.commands.doctor:command", "Check that this terminal can play."),
+        LazyCommand(
+            "completion", "game.commands.completion:command", "Print a shell's completion script."
+        ),
     ],
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"]},

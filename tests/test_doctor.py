@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from game import doctor, places
+from game import places
 from game.cli import main
-from game.doctor import Check, KeyReading
+from game.commands import doctor
+from game.commands.doctor import Check, KeyReading
 
 UP = b"\x1b[A"
 

@@ -11,7 +11,7 @@ from game.cli import ana
 from game.lazy import LazyCommand
 
 HEAVY = ("matplotlib", "numpy", "pandas", "pingouin", "scipy", "statsmodels", "tcod")
-ON_THE_WAY_TO_PLAY = ("game.cli", "game.play_cli", "game.screens.mission")
+ON_THE_WAY_TO_PLAY = ("game.cli", "game.commands.play", "game.screens.mission")
 LATER = ("game.rescuers", "game.study", "game.screens.result", "game.session.replay")
 """What a mission does not need for its first picture."""
 LAZY = [command for command in ana.commands.values() if isinstance(command, LazyCommand)]

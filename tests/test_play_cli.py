@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from game.cli import main
+from game.commands.play import assigned, options_of
 from game.errors import AnaError
-from game.play_cli import assigned, options_of
 from game.world.settings import MissionSettings
 
 GIVEN = {

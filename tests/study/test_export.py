@@ -14,6 +14,7 @@ import pytest
 from click.testing import CliRunner
 
 from analysis.longcsv import read_long_csv
+from game.commands.study import group
 from game.session.reader import read_journal
 from game.session.verify import verify
 from game.study.export import export_study, without_free_text
@@ -21,7 +22,6 @@ from game.study.folder import Identity, Study, StudyError
 from game.study.ledger import Unblinded
 from game.study.psychds import alphanumeric
 from game.study.withdraw import withdraw
-from game.study_cli import group
 from tests.study.people import small_study, take_part
 from tests.study.psychds_rules import broken_rules
 

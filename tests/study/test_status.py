@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from game.commands.study import group
 from game.session.play import JOURNAL
 from game.session.reader import read_journal
 from game.study.design import design_cell
@@ -23,7 +24,6 @@ from game.study.roll import Roll, SessionStatus
 from game.study.status import ExclusionRule, StatusReader, breakdown
 from game.study.statustext import age
 from game.study.withdraw import withdraw
-from game.study_cli import group
 from tests.study.people import small_study, take_part
 from tests.study.server import ANA
 from tests.terminal import Terminal

@@ -17,12 +17,14 @@ FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
     name="study",
     cls=LazyGroup,
     commands=[
-        LazyCommand("status", "game.lab_cli:status", "Show who is where, and what is wrong."),
-        LazyCommand("export", "game.lab_cli:export", "Write a Psych-DS dataset with a codebook."),
-        LazyCommand("drop", "game.lab_cli:drop", "Record that somebody does not come back."),
-        LazyCommand("close", "game.lab_cli:close", "End recruiting."),
-        LazyCommand("sshd", "game.lab_cli:sshd", "Print the SSH server's configuration."),
-        LazyCommand("login", "game.lab_cli:login", "What that server runs for a participant."),
+        LazyCommand("status", "game.commands.lab:status", "Show who is where, and what is wrong."),
+        LazyCommand(
+            "export", "game.commands.lab:export", "Write a Psych-DS dataset with a codebook."
+        ),
+        LazyCommand("drop", "game.commands.lab:drop", "Record that somebody does not come back."),
+        LazyCommand("close", "game.commands.lab:close", "End recruiting."),
+        LazyCommand("sshd", "game.commands.lab:sshd", "Print the SSH server's configuration."),
+        LazyCommand("login", "game.commands.lab:login", "What that server runs for a participant."),
     ],
 )
 def group() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from game.play_cli import mission_options, options_of
+from game.commands.play import mission_options, options_of
 from game.rescuers.catalogue import LITERAL, RESCUERS, character
 from game.screens.app import run_watch
 

@@ -135,8 +135,8 @@ def login(ctx: click.Context, folder: Path, *, pilot: bool) -> object:
         )
     for number in (signal.SIGQUIT, signal.SIGTSTP):
         signal.signal(number, signal.SIG_IGN)
+    from game.commands.study import run
     from game.study.sshd import who_logs_in
-    from game.study_cli import run
 
     identity = who_logs_in(os.environ, _ask_for_id)
     return ctx.invoke(run, folder=folder, participant=identity, pilot=pilot)
