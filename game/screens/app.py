@@ -14,8 +14,10 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, ClassVar
 
 from textual import events
-from textual.app import App
+from textual.app import App, ComposeResult
+from textual.geometry import Size
 from textual.screen import Screen
+from textual.widgets import Static
 
 from game.coach.spec import CoachSpec, parse_coach
 from game.errors import AnaError
@@ -88,12 +90,21 @@ class AnaApp(App[None], inherit_bindings=False):
         self.failure: AnaError | None = None
         self.live: LiveMission | None = None
         self._been_home = False
+        self._opened = False
 
     # --- beginning and ending -------------------------------------------------------------------
 
+    def compose(self) -> ComposeResult:
+        yield Static("Opening the building …", id="opening")
+
     def on_mount(self) -> None:
         lead_out(self._note_signal, self._leave)
+        self.call_after_refresh(self._open)
+
+    def _open(self) -> None:
+        self._opened = True
         self._first(self)
+        self._mind_size(self.size)
 
     def _note_signal(self, name: str) -> None:
         if self.live is not None:
@@ -109,8 +120,12 @@ class AnaApp(App[None], inherit_bindings=False):
     # --- the window -----------------------------------------------------------------------------
 
     def on_resize(self, event: events.Resize) -> None:
+        if self._opened:
+            self._mind_size(event.size)
+
+    def _mind_size(self, size: Size) -> None:
         columns, rows = LEAST_SIZE
-        small = event.size.width < columns or event.size.height < rows
+        small = size.width < columns or size.height < rows
         shown = isinstance(self.screen, TooSmall)
         if small and not shown:
             self.push_screen(TooSmall())

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
 
-from game.world.geometry import Cell, Heading
+from game.world.geometry import Cell
 
 
 class Tile(IntEnum):
@@ -101,9 +101,20 @@ class Plan:
     def neighbours(self) -> tuple[tuple[int, ...], ...]:
         """For every index the indices of its walkable four-neighbours (clockwise from north);
         empty for a wall."""
-        table = []
-        for index, tile in enumerate(self.tiles):
-            cell = self.cell(index)
-            around = (heading.from_cell(cell) for heading in Heading) if tile != Tile.WALL else ()
-            table.append(tuple(self.index(c) for c in around if self.walkable(c)))
+        width, size = self.width, len(self.tiles)
+        free = [tile != Tile.WALL for tile in self.tiles]
+        table: list[tuple[int, ...]] = []
+        for index in range(size):
+            near: list[int] = []
+            if free[index]:
+                x = index % width
+                if index >= width and free[index - width]:
+                    near.append(index - width)
+                if x + 1 < width and free[index + 1]:
+                    near.append(index + 1)
+                if index + width < size and free[index + width]:
+                    near.append(index + width)
+                if x and free[index - 1]:
+                    near.append(index - 1)
+            table.append(tuple(near))
         return tuple(table)
