@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from tests.bench.coach import coach_costs, mission_s, route_p99_ms
+from tests.bench.coach import coach_costs, coached_keys, mission_s, route_p99_ms
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paint_ms, key_costs
 from tests.bench.simulation import simulation_rates
 from tests.bench.ssh import PARTICIPANTS, at_once
@@ -23,6 +23,8 @@ BUILDINGS = ("harbour", "foundry")
 FLOOR = (sys.executable, "-m", "tests.bench.floor")
 WALK = ["right"] * 8 + ["left"] * 16 + ["right"] * 8
 CLOCK_ROWS = (4, 5, 7)
+SEED, KEYS, KEYS_A_SECOND = 1, 150, 10
+SWIFT = ("moves_per_second=20", "treat_red_ms=0", "treat_blue_ms=0")
 
 
 @dataclass(frozen=True)
@@ -62,14 +64,20 @@ def game(*options: str) -> list[str]:
 
 
 def keys() -> Iterator[Figure]:
-    """A key over a pseudo-terminal of 120 x 40, 10 a second at pace 20, coach and journal on."""
+    """A key over a pseudo-terminal of 120 x 40, 10 a second at pace 20, coach and journal on: once
+    as the coach says, with treatments that take no time, and once back and forth against it."""
     floor: KeyCosts = key_costs(FLOOR, WALK)
-    ours: KeyCosts = key_costs(game("--set", "moves_per_second=20"), WALK, ignored_rows=CLOCK_ROWS)
-    yield Figure("keys answered", ours.answered, f"of {ours.pressed}")
-    yield Figure("key to painted, p50", ours.p50_ms, "ms", 3, floor.p50_ms)
-    yield Figure("key to painted, p95", ours.p95_ms, "ms", 5, floor.p95_ms)
-    yield Figure("bytes a move", ours.bytes_a_key, "B", 2500)
-    yield Figure("CPU a move", ours.cpu_ms_a_key, "ms", 6)
+    coached = coached_keys(SEED, KEYS, 1000 // KEYS_A_SECOND, SWIFT)
+    options = [part for setting in SWIFT for part in ("--set", setting)]
+    for way, pressed in (("as coached", coached), ("against it", WALK)):
+        ours: KeyCosts = key_costs(
+            game(*options), pressed, count=KEYS, per_second=KEYS_A_SECOND, ignored_rows=CLOCK_ROWS
+        )
+        yield Figure(f"{way}: keys answered", ours.answered, f"of {ours.pressed}")
+        yield Figure(f"{way}: key to painted, p50", ours.p50_ms, "ms", 3, floor.p50_ms)
+        yield Figure(f"{way}: key to painted, p95", ours.p95_ms, "ms", 5, floor.p95_ms)
+        yield Figure(f"{way}: bytes a move", ours.bytes_a_key, "B", 2500)
+        yield Figure(f"{way}: CPU a move", ours.cpu_ms_a_key, "ms", 6)
 
 
 def opening() -> Iterator[Figure]:

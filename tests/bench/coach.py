@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from random import Random
 from statistics import quantiles
@@ -12,17 +13,25 @@ from game.coach.api import Briefing, Coach
 from game.coach.records import CoachRecord, GoalSet
 from game.coach.route import RoutePlanner
 from game.coach.spec import CoachSpec, build_coach, parse_coach
+from game.commands.play import DEFAULT_BUILDING, assigned
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.session.play import CoachBuilder, start_in_memory
 from game.world import load_building
 from game.world.building import Building
-from game.world.events import MissionEvent
+from game.world.events import Action, MissionEvent
 from game.world.floodfill import Floodfills
 from game.world.observation import Guidance, Observation
 from game.world.settings import MissionSettings
 
 SETTINGS = MissionSettings()
+KEY_OF = {
+    Action.NORTH: "up",
+    Action.EAST: "right",
+    Action.SOUTH: "down",
+    Action.WEST: "left",
+    Action.TRIAGE: "space",
+}
 
 
 class TimedCoach:
@@ -76,6 +85,23 @@ def reader(building: Building) -> LiteralReader:
 
 def _always(coach: Coach) -> CoachBuilder:
     return lambda _spec, _briefing: coach
+
+
+def coached_keys(seed: int, count: int, every_ms: int, assignments: Iterable[str]) -> list[str]:
+    """The first keys with which a literal reader follows ANA in the usual building."""
+    building, settings = load_building(DEFAULT_BUILDING), assigned(SETTINGS, assignments)
+    run, _ = start_in_memory(building, settings, parse_coach("ana"), seed, rescuer="literal")
+    keys: list[str] = []
+    follower = reader(building)
+    now_ms = 0
+    while len(keys) < count and not run.ended:
+        action = follower.decide(run.observation())
+        if action is not None:
+            keys.append(KEY_OF[action])
+            run.press(action, now_ms)
+        now_ms += every_ms
+        run.advance(now_ms)
+    return keys
 
 
 def coach_costs(names: tuple[str, ...], seeds: range) -> CoachCosts:
