@@ -27,6 +27,7 @@ KEYS = {
     "escape": "\x1b",
     "space": " ",
     "tab": "\t",
+    "backspace": "\x7f",
 }
 
 _QUERIES = {
@@ -66,6 +67,7 @@ class Terminal:
         self._screen = pyte.Screen(columns, rows)
         self._stream = pyte.ByteStream(self._screen)
         self._fed = 0
+        self._shown: str | None = None
         inherited = {
             name: value
             for name, value in os.environ.items()
@@ -89,6 +91,7 @@ class Terminal:
     def resize(self, columns: int, rows: int) -> None:
         fcntl.ioctl(self._descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
         self._screen.resize(rows, columns)
+        self._shown = None
 
     def press(self, *keys: str) -> None:
         """Type keys by name, or text as it is."""
@@ -136,10 +139,12 @@ class Terminal:
 
     def text(self) -> str:
         """What the screen shows now."""
-        for chunk in self.chunks[self._fed :]:
+        new, self._fed = self.chunks[self._fed :], len(self.chunks)
+        for chunk in new:
             self.feed(self._stream, chunk.data)
-        self._fed = len(self.chunks)
-        return "\n".join(line.rstrip() for line in self._screen.display)
+        if new or self._shown is None:
+            self._shown = "\n".join(line.rstrip() for line in self._screen.display)
+        return self._shown
 
     @staticmethod
     def feed(stream: Any, data: bytes) -> None:

@@ -11,7 +11,8 @@ import tempfile
 import termios
 import time
 import tty
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -20,6 +21,7 @@ import click
 import msgspec
 
 from game import places
+from game.screens.terminal import colours
 
 Status = Literal["ok", "warn", "fail"]
 
@@ -95,16 +97,15 @@ def check_terminal(*, interactive: bool, term: str) -> Check:
 
 def check_colours(env: Mapping[str, str]) -> Check:
     """How many colours the terminal says it has; every number of them can be played."""
-    if env.get("NO_COLOR"):
+    found = colours(env)
+    if found == "none":
         return Check("colours", "ok", "none, as NO_COLOR asks; shapes tell everything apart")
-    if env.get("COLORTERM", "").lower() in ("truecolor", "24bit"):
-        return Check("colours", "ok", "truecolor")
-    if env.get("TERM", "").endswith(("-256color", "-kitty")):
-        return Check("colours", "ok", "256")
+    if found != "16":
+        return Check("colours", "ok", found)
     return Check(
         "colours",
         "warn",
-        "16",
+        found,
         "It can be played, but looks better with more: set TERM=xterm-256color, or "
         "COLORTERM=truecolor if the terminal has it (ssh passes it on only by SendEnv).",
     )
@@ -202,27 +203,33 @@ def check_clock(*, monotonic: bool, resolution_s: float) -> Check:
     return Check("clock", "fail", found, "Play on a computer whose monotonic clock counts in ms.")
 
 
-def read_key(descriptor: int, *, wait_s: float, pieces_s: float) -> KeyReading | None:
-    """One key press from the terminal `descriptor`, or None if none comes within `wait_s`.
-
-    Bytes that may still become an arrow key are waited for, up to `pieces_s` after the first.
-    """
+@contextmanager
+def _listening(descriptor: int) -> Iterator[None]:
+    """A terminal that hands keys on one by one and shows none of them."""
     before = termios.tcgetattr(descriptor)
     tty.setcbreak(descriptor)
     try:
-        if not select.select([descriptor], [], [], wait_s)[0]:
-            return None
-        data = os.read(descriptor, 32)
-        first = last = time.monotonic()
-        while any(arrow != data and arrow.startswith(data) for arrow in _ARROWS):
-            left_s = max(0.0, first + pieces_s - time.monotonic())
-            if not select.select([descriptor], [], [], left_s)[0]:
-                break
-            data += os.read(descriptor, 32)
-            last = time.monotonic()
-        return KeyReading(data, (last - first) * 1e3)
+        yield
     finally:
         termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+
+
+def _read_key(descriptor: int, *, wait_s: float, pieces_s: float) -> KeyReading | None:
+    """One key press from a listening terminal, or None if none comes within `wait_s`.
+
+    Bytes that may still become an arrow key are waited for, up to `pieces_s` after the first.
+    """
+    if not select.select([descriptor], [], [], wait_s)[0]:
+        return None
+    data = os.read(descriptor, 32)
+    first = last = time.monotonic()
+    while any(arrow != data and arrow.startswith(data) for arrow in _ARROWS):
+        left_s = max(0.0, first + pieces_s - time.monotonic())
+        if not select.select([descriptor], [], [], left_s)[0]:
+            break
+        data += os.read(descriptor, 32)
+        last = time.monotonic()
+    return KeyReading(data, (last - first) * 1e3)
 
 
 def examine(folder: Path, *, ask_key: bool) -> Report:
@@ -246,8 +253,10 @@ def examine(folder: Path, *, ask_key: bool) -> Report:
 
 
 def _ask_for_arrow() -> KeyReading | None:
-    click.echo("Press an arrow key ...", err=True)
-    return read_key(sys.stdin.fileno(), wait_s=KEY_WAIT_S, pieces_s=KEY_PIECES_S)
+    terminal = sys.stdin.fileno()
+    with _listening(terminal):
+        click.echo("Press an arrow key ...", err=True)
+        return _read_key(terminal, wait_s=KEY_WAIT_S, pieces_s=KEY_PIECES_S)
 
 
 def _escdelay_ms(env: Mapping[str, str]) -> int:

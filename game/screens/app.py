@@ -32,10 +32,10 @@ from game.screens.preferences import (
     save_preferences,
 )
 from game.screens.signals import lead_out
+from game.screens.terminal import this_terminal
 from game.screens.theme import THEMES, theme_name
 from game.session.journal import Journal
 from game.session.play import start_free_play
-from game.session.records import Terminal
 from game.session.sink import FileSink
 from game.world import load_building
 from game.world.building import Building
@@ -108,7 +108,7 @@ class AnaApp(App[None], inherit_bindings=False):
 
     def _note_signal(self, name: str) -> None:
         if self.live is not None:
-            self.live.interrupt(name)
+            self.live.journal.interrupt(name)
 
     def _leave(self, status: int) -> None:
         self.exit(return_code=status)
@@ -222,7 +222,7 @@ class AnaApp(App[None], inherit_bindings=False):
             options.spec,
             options.seed,
             options.log_dir,
-            self._terminal(),
+            this_terminal(*self.size),
         )
         return MissionScreen(LiveMission(run, journal), _path(journal))
 
@@ -238,7 +238,7 @@ class AnaApp(App[None], inherit_bindings=False):
             options.spec,
             options.seed,
             options.log_dir,
-            self._terminal(),
+            this_terminal(*self.size),
             rescuer=who.name,
             build=OverheardCoach.build,
         )
@@ -246,9 +246,6 @@ class AnaApp(App[None], inherit_bindings=False):
         assert isinstance(coach, OverheardCoach)
         rescuer = who.make(building, options.settings, options.seed)
         return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
-
-    def _terminal(self) -> Terminal:
-        return Terminal(os.environ.get("TERM", ""), os.environ.get("COLORTERM", ""), *self.size)
 
     def on_finished(self, message: Finished) -> None:
         from game.screens.result import ResultScreen

@@ -84,7 +84,7 @@ class JournalsScreen(Screen[Path]):
         super().__init__()
         self._journals = journals
         self._selected = 0
-        self._list = JournalList(classes="page")
+        self._list = JournalList()
 
     def compose(self) -> ComposeResult:
         yield self._list

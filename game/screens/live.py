@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Literal
-
 from game.session.clock import Clock, MissionClock, Reading, SystemClock
 from game.session.journal import Journal
 from game.session.play import end_free_play
-from game.session.records import Interruption, Paused, Unpaused
+from game.session.records import Paused, Unpaused
 from game.session.run import MissionRun
 from game.world.events import Action
 from game.world.observation import Observation
@@ -52,8 +48,6 @@ class LiveMission:
         self.journal = journal
         self.pace = clock or PacedClock(SystemClock())
         self._clock = MissionClock(self.pace)
-        self._writing = False
-        self._interruption: Interruption | None = None
 
     @property
     def settings(self) -> MissionSettings:
@@ -73,13 +67,11 @@ class LiveMission:
     def press(self, action: Action) -> None:
         """Act now. Nothing happens while the mission is paused."""
         if not self.paused:
-            with self._whole():
-                self.run.press(action, self._clock.now_ms())
+            self.run.press(action, self._clock.now_ms())
 
     def advance(self) -> None:
         """Let happen what is due."""
-        with self._whole():
-            self.run.advance(self._clock.now_ms())
+        self.run.advance(self._clock.now_ms())
 
     def now_ms(self) -> int:
         """The mission time."""
@@ -94,39 +86,14 @@ class LiveMission:
         if self.settings.allow_pause and not self.paused and not self.ended:
             self.advance()
             self._clock.pause()
-            with self._whole():
-                self.journal.append(Paused(self._clock.now_ms()))
+            self.journal.append(Paused(self._clock.now_ms()))
 
     def unpause(self) -> None:
         """Let a paused mission go on."""
         if self.paused:
-            with self._whole():
-                self.journal.append(Unpaused(self._clock.now_ms()))
+            self.journal.append(Unpaused(self._clock.now_ms()))
             self._clock.unpause()
 
-    def interrupt(self, signal: str) -> None:
-        """Record a signal; may be called by its handler, at any moment of this thread."""
-        kind: Literal["hang_up", "signal"] = "hang_up" if signal == "SIGHUP" else "signal"
-        self._interruption = Interruption(kind, signal=signal)
-        if not self._writing:
-            self._write_interruption()
-
-    def end(self, *, interrupted: bool = False) -> None:
+    def end(self) -> None:
         """End the session and close its journal: some milliseconds, so not on an event loop."""
-        with self._whole():
-            end_free_play(self.run, self.journal, self._clock.now_ms(), interrupted=interrupted)
-
-    @contextmanager
-    def _whole(self) -> Iterator[None]:
-        """Let a signal's record wait until the lines being written are."""
-        self._writing = True
-        try:
-            yield
-        finally:
-            self._writing = False
-            self._write_interruption()
-
-    def _write_interruption(self) -> None:
-        record, self._interruption = self._interruption, None
-        if record is not None:
-            self.journal.append(record)
+        end_free_play(self.run, self.journal, self._clock.now_ms())

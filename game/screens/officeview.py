@@ -48,7 +48,7 @@ class OfficeView(Canvas):
         self.draw(fresh)
         x, y = observation.position
         offset = Offset(2 * (x - camera.left), y - camera.top)
-        self.app.cursor_position = self.content_region.offset + offset
+        self.app.cursor_position = self.region.offset + offset
 
     def notify_style_update(self) -> None:
         super().notify_style_update()

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from textual.theme import Theme
 
 from game.screens.preferences import Ground
+from game.screens.terminal import colours, ground
 
 _DARK = {
     "dark": "#121316",
@@ -173,24 +174,24 @@ _TERMINAL_VARIABLES = {
 """What Textual's own style sheet asks of a theme that uses the terminal's colours."""
 
 
-def _theme(name: str, colours: Mapping[str, str], *, dark: bool, ansi: bool = False) -> Theme:
+def _theme(name: str, inks: Mapping[str, str], *, dark: bool, ansi: bool = False) -> Theme:
     return Theme(
         name=name,
-        primary=colours["accent"],
-        secondary=colours["quiet"],
-        accent=colours["accent"],
-        foreground=colours["text"],
-        background=colours["dark"],
-        surface=colours["box"],
-        panel=colours["box"],
-        boost=colours["box"],
-        warning=colours["treated"],
-        error=colours["red"],
-        success=colours["rescued"],
+        primary=inks["accent"],
+        secondary=inks["quiet"],
+        accent=inks["accent"],
+        foreground=inks["text"],
+        background=inks["dark"],
+        surface=inks["box"],
+        panel=inks["box"],
+        boost=inks["box"],
+        warning=inks["treated"],
+        error=inks["red"],
+        success=inks["rescued"],
         dark=dark,
         ansi=ansi,
         variables={
-            **{f"ana-{key}": value for key, value in colours.items()},
+            **{f"ana-{key}": value for key, value in inks.items()},
             **(_TERMINAL_VARIABLES if ansi else {}),
         },
     )
@@ -203,20 +204,9 @@ THEMES = (
 )
 
 
-def few_colours(environ: Mapping[str, str]) -> bool:
-    """Whether the terminal has 16 colours or fewer, or the user wants none (no-color.org)."""
-    if "NO_COLOR" in environ:
-        return True
-    if environ.get("COLORTERM", "").strip().lower() in ("truecolor", "24bit"):
-        return False
-    return not environ.get("TERM", "").endswith(("-256color", "-kitty"))
-
-
-def ground(environ: Mapping[str, str]) -> Ground:
-    """The terminal's own background, where it tells (COLORFGBG); else dark."""
-    return "light" if environ.get("COLORFGBG", "").rpartition(";")[2] in ("7", "15") else "dark"
-
-
 def theme_name(environ: Mapping[str, str], wanted: Ground | None = None) -> str:
-    """The theme for this terminal; `wanted` is the user's own choice of ground."""
-    return "ana-terminal" if few_colours(environ) else f"ana-{wanted or ground(environ)}"
+    """The theme for this terminal: its own colours where it has 16 or fewer. `wanted` is the user's
+    own choice of ground."""
+    if colours(environ) in ("none", "16"):
+        return "ana-terminal"
+    return f"ana-{wanted or ground(environ)}"

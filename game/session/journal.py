@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import sys
+import threading
+from collections import deque
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
@@ -76,6 +78,10 @@ class Journal:
     answer, a rescue, the end of a phase), `wait_durable` comes before the next painting. When the
     wall clock and the steady clock part company between two records, an `interruption` is put
     between them.
+
+    All that appends may be called by a signal's handler, at any moment: what comes in the middle
+    of a write is written right after it, by whoever is writing. What a sink refused stays first in
+    line, so everything that follows is refused as well.
     """
 
     def __init__(self, sink: Sink, clock: Clock, *, seq: int = 0, segment: int = 0) -> None:
@@ -87,6 +93,8 @@ class Journal:
         self._began = self._latest = clock.read()
         self._seq = seq
         self._segment = segment
+        self._waiting: deque[Sequence[Record]] = deque()
+        self._writing = threading.Lock()
 
     @classmethod
     def create(cls, path: Path, started: SessionStarted, clock: Clock | None = None) -> Self:
@@ -140,8 +148,20 @@ class Journal:
 
     def extend(self, records: Sequence[Record]) -> None:
         """Append records that belong together, in one write."""
-        self.sink.write(self._lines(records))
-        self.awaits_disk |= not LASTING.isdisjoint(map(type, records))
+        self._waiting.append(records)
+        self._write_waiting()
+
+    def interrupt(self, signal: str) -> None:
+        """Append the record of a signal, given its name."""
+        self.append(Interruption("hang_up" if signal == "SIGHUP" else "signal", signal=signal))
+
+    def keep(self, sink: Sink) -> None:
+        """From here on write to `sink`, beginning with all that this journal has in memory."""
+        with self._writing:
+            assert isinstance(self.sink, MemorySink)
+            sink.write(bytes(self.sink.data))
+            self.sink = sink
+        self._write_waiting()
 
     def flush_durably(self) -> None:
         """Wait for the disk: some milliseconds, so never on an event loop."""
@@ -153,8 +173,28 @@ class Journal:
         await asyncio.to_thread(self.flush_durably)
 
     def close(self) -> None:
-        """Flush durably and end the segment. Closing twice does no harm."""
-        self.sink.close()
+        """Flush durably and end the segment. Closing twice does no harm.
+
+        What a handler appends meanwhile is not recorded any more.
+        """
+        with self._writing:
+            self.sink.close()
+
+    def _write_waiting(self) -> None:
+        """Write what waits, unless a write is under way: that one goes on until nothing waits.
+
+        A handler may run between any two steps here, so what waits is looked at once more after
+        the lock is let go.
+        """
+        while self._waiting and self._writing.acquire(blocking=False):
+            try:
+                while self._waiting:
+                    records = self._waiting[0]
+                    self.sink.write(self._lines(records))
+                    self.awaits_disk |= not LASTING.isdisjoint(map(type, records))
+                    self._waiting.popleft()
+            finally:
+                self._writing.release()
 
     def _lines(self, records: Sequence[Record]) -> bytes:
         now = self._clock.read()

@@ -136,7 +136,7 @@ def leave_mission(
     run: MissionRun,
     journal: Journal,
     now_ms: int,
-    reason: Literal["quit", "interrupted", "leg_done"] = "quit",
+    reason: Literal["quit", "leg_done"] = "quit",
 ) -> None:
     """Let the mission run on to `now_ms`, and abandon it there if it has not ended."""
     run.advance(now_ms)
@@ -144,14 +144,11 @@ def leave_mission(
         journal.append(MissionAbandoned(now_ms, reason))
 
 
-def end_free_play(
-    run: MissionRun, journal: Journal, now_ms: int, *, interrupted: bool = False
-) -> None:
+def end_free_play(run: MissionRun, journal: Journal, now_ms: int) -> None:
     """Leave the mission, and end and close its journal."""
-    reason: Literal["quit", "interrupted"] = "interrupted" if interrupted else "quit"
-    leave_mission(run, journal, now_ms, reason)
+    leave_mission(run, journal, now_ms)
     journal.enter("session")
-    journal.append(SessionEnded("finished" if run.ended else reason))
+    journal.append(SessionEnded("finished" if run.ended else "quit"))
     journal.close()
 
 

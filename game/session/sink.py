@@ -151,7 +151,7 @@ class FileSink:
         try:
             os.fsync(self._descriptor)
             if self._new_name:
-                _sync_folder(self.path.parent)
+                sync_folder(self.path.parent)
                 self._new_name = False
         except OSError as error:
             self._failed(error)
@@ -198,7 +198,7 @@ def make_folders(folder: Path) -> None:
         parent.mkdir(mode=0o700, exist_ok=True)
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
     """Make the name of a new file durable, on file systems where a folder can be synced."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:

@@ -4,13 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from game.session.records import (
-    FreeText,
-    PreferenceGiven,
-    QuestionnaireAnswer,
-    QuizAnswer,
-    Record,
-)
+from game.session.records import PreferenceGiven, QuestionnaireAnswer, QuizAnswer, Record
 from game.study.protocol import Step
 from game.world.events import Rescued
 
@@ -23,7 +17,6 @@ class Answers:
     items: dict[tuple[Step, str], QuestionnaireAnswer] = field(default_factory=dict)
     labels: dict[Step, dict[str, str]] = field(default_factory=dict)
     preference: PreferenceGiven | None = None
-    reason: FreeText | None = None
     legs: int = 0
 
     def note(self, step: Step, record: Record) -> None:
@@ -37,8 +30,6 @@ class Answers:
                 self.labels.setdefault(step, {})[room] = name
             case PreferenceGiven():
                 self.preference = record
-            case FreeText():
-                self.reason = record
             case Rescued() if step.phase == "practice":
                 self.legs += 1
             case _:

@@ -8,7 +8,6 @@ The order of slots comes from hashes of the seed: the same on every machine and 
 
 from __future__ import annotations
 
-from enum import StrEnum
 from itertools import product
 
 import msgspec
@@ -18,13 +17,6 @@ from game.study.chance import digest, shuffled
 
 HALF_BLOCK = 12
 BLOCK = 2 * HALF_BLOCK
-
-
-class Instructor(StrEnum):
-    """Who coaches a round."""
-
-    STATIC = "static"
-    ADAPTIVE = "adaptive"
 
 
 class DesignCell(msgspec.Struct, frozen=True, order=True):
@@ -38,13 +30,6 @@ class DesignCell(msgspec.Struct, frozen=True, order=True):
     adaptive_first: bool
     static_level: Level
     first_building: int
-
-    @property
-    def instructors(self) -> tuple[Instructor, Instructor]:
-        """Who coaches the first round, and who the second."""
-        if self.adaptive_first:
-            return Instructor.ADAPTIVE, Instructor.STATIC
-        return Instructor.STATIC, Instructor.ADAPTIVE
 
     @property
     def buildings(self) -> tuple[int, int]:

@@ -21,6 +21,7 @@ from game.session.gather import transcripts
 from game.session.play import JOURNAL
 from game.session.reader import Transcript, read_file
 from game.session.rows import Row
+from game.session.sink import make_folders
 from game.session.tables import ROW_TYPES, Tables, combined, session_tables
 from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, StudyError
 from game.study.ledger import Ledger, Mode, ending_of, is_closed
@@ -222,9 +223,7 @@ def _replace(out: Path, files: dict[str, bytes]) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    for folder in reversed((path.parent, *path.parent.parents)):
-        if not folder.exists():
-            folder.mkdir(mode=0o700)
+    make_folders(path.parent)
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
     with os.fdopen(descriptor, "wb") as file:
         file.write(data)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError
+from game.session.gather import SESSIONS
 from game.session.records import StudyCopy
 from game.session.sink import make_folders
 from game.study.ledger import (
@@ -25,6 +26,8 @@ from game.study.ledger import (
     Mode,
     SettingsAmended,
     StudyCreated,
+    agreed_hash,
+    agreement,
     utc_now,
 )
 from game.study.settings import ScreenSize, SettingsError, StudySettings, read_settings
@@ -72,7 +75,7 @@ class Study:
 
     def home(self, identity: Identity) -> Path:
         """The folder of one participant's session."""
-        return self.folder / "sessions" / identity.mode / identity.participant
+        return self.folder / SESSIONS / identity.mode / identity.participant
 
     def building(self, name: str) -> Building:
         """The building that the settings call `name`."""
@@ -156,28 +159,15 @@ def open_study(folder: Path) -> Study:
 def amend(folder: Path, why: str) -> None:
     """Record that study.toml was changed, knowingly. Raises StudyError when it was not."""
     study = open_study(folder)
-    if agreed_with(study):
+    if agreed_hash(study.ledger.entries()) == study.copy.sha256:
         raise StudyError("study.toml was not changed", place=str(folder))
     study.ledger.amend(study.copy.sha256, why)
 
 
-def agreed_with(study: Study) -> bool:
-    """Whether the settings are those the ledger knows."""
-    return _agreements(study)[-1].settings_hash == study.copy.sha256
-
-
 def amendment(study: Study) -> str:
     """Why the settings were changed last; empty where they were not."""
-    last = _agreements(study)[-1]
+    last = agreement(study.ledger.entries())
     return last.why if isinstance(last, SettingsAmended) else ""
-
-
-def _agreements(study: Study) -> list[StudyCreated | SettingsAmended]:
-    return [
-        entry
-        for entry in study.ledger.entries()
-        if isinstance(entry, StudyCreated | SettingsAmended)
-    ]
 
 
 def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], path: Path) -> None:

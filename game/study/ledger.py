@@ -266,14 +266,18 @@ class Ledger:
             os.close(descriptor)
 
 
+def agreement(entries: Sequence[LedgerEntry]) -> StudyCreated | SettingsAmended | None:
+    """The entry with the settings that the study runs under; None where there is no ledger yet."""
+    for entry in reversed(entries):
+        if isinstance(entry, StudyCreated | SettingsAmended):
+            return entry
+    return None
+
+
 def agreed_hash(entries: Sequence[LedgerEntry]) -> str:
     """The hash of the settings that the study runs under; empty where there is no ledger yet."""
-    agreed = [
-        entry.settings_hash
-        for entry in entries
-        if isinstance(entry, StudyCreated | SettingsAmended)
-    ]
-    return agreed[-1] if agreed else ""
+    agreed = agreement(entries)
+    return "" if agreed is None else agreed.settings_hash
 
 
 def is_closed(entries: Sequence[LedgerEntry]) -> bool:

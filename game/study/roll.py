@@ -134,8 +134,7 @@ class SessionWatch:
     def status(self, settings: StudySettings, now: datetime) -> SessionStatus:
         """Where the session is at the moment `now`."""
         state = self._state()
-        concealed = self.step.phase == "memorise"
-        timed = self.progress.begun is not None and self.limit_ms is not None and not concealed
+        told = self._timed and self.step.phase != "memorise"
         silent_s = self._silent_s(now)
         return SessionStatus(
             participant=self.identity.participant,
@@ -143,8 +142,8 @@ class SessionWatch:
             state=state,
             phase=self.step.phase if self.last_utc else "consent",
             round=self.step.round,
-            clock_s=self.progress.exposure_ms / 1000 if timed else None,
-            limit_s=_limit_s(self.step.phase, settings) if timed else None,
+            clock_s=self.progress.exposure_ms / 1000 if told else None,
+            limit_s=_limit_s(self.step.phase, settings) if told else None,
             silent_s=silent_s,
             interruptions=self.interruptions,
             resumed=self.resumed,
@@ -167,6 +166,11 @@ class SessionWatch:
                 self.resumed += 1
             case _:
                 pass
+
+    @property
+    def _timed(self) -> bool:
+        """Whether a timed phase is under way."""
+        return self.progress.begun is not None and self.limit_ms is not None
 
     def _state(self) -> State:
         if self.progress.declined:
@@ -206,8 +210,8 @@ class SessionWatch:
             found.append(f"the journal ends in {len(self._tail)} torn bytes; they do not count")
         if state == "cut off":
             found.append("its process is gone; the participant may log in again")
-        timed = self.progress.begun is not None and self.limit_ms is not None
-        if state == "taking part" and timed and silent_s is not None and silent_s > SILENCE_S:
+        silent = silent_s is not None and silent_s > SILENCE_S
+        if state == "taking part" and self._timed and silent:
             found.append(f"silent for {silent_s:.0f} s in a timed phase: a frozen link?")
         return found
 

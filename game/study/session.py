@@ -7,8 +7,7 @@ declines only that is written.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -22,7 +21,6 @@ from game.session.records import (
     Allocated,
     Declined,
     Envelope,
-    Interruption,
     Record,
     SessionEnded,
     SessionStarted,
@@ -30,7 +28,7 @@ from game.session.records import (
     TakenOver,
     Terminal,
 )
-from game.session.sink import FileSink, MemorySink, Sink
+from game.session.sink import FileSink, Sink
 from game.study.answers import Answers
 from game.study.chance import digest, number
 from game.study.folder import Identity, Study, StudyError, amendment
@@ -68,8 +66,6 @@ class StudySession:
             self.answers.note(Step(entry.envelope.phase, entry.envelope.round), entry.record)
         self._make_sink = keep
         self._kept = bool(before)
-        self._writing = False
-        self._interruption: Interruption | None = None
 
     @property
     def seed(self) -> int:
@@ -97,8 +93,7 @@ class StudySession:
 
     def record(self, *records: Record) -> None:
         """Write records that belong together; the operating system has them on return."""
-        with self._whole():
-            self.journal.extend(records)
+        self.journal.extend(records)
         step = self.step
         envelope = Envelope(0, 0, 0, "", step.phase, step.round)
         for record in records:
@@ -112,19 +107,17 @@ class StudySession:
 
     async def keep(self) -> None:
         """From here on the journal is kept: what it holds is written, and all that follows."""
-        memory = self.journal.sink
-        if not self._kept and isinstance(memory, MemorySink):
-            sink = self._make_sink()
-            sink.write(bytes(memory.data))
-            self.journal.sink = sink
+        if not self._kept:
+            self.journal.keep(self._make_sink())
             self._kept = True
         await self.journal.wait_durable()
 
     async def decline(self, version: str) -> None:
         """Keep nothing but that the participant declined."""
         if not self._kept:
-            self.journal = Journal(self._make_sink(), self.clock)
-            self.journal.append(replace(self._started, terminal=None, versions=versions(None)))
+            journal = Journal(self._make_sink(), self.clock)
+            journal.append(replace(self._started, terminal=None, versions=versions(None)))
+            self.journal = journal
         self.enter(Step("consent"))
         self.record(Declined(version))
         await self.finish("declined")
@@ -162,28 +155,6 @@ class StudySession:
         """The participant leaves, and may come back."""
         self.record(SessionEnded("quit"))
 
-    def interrupt(self, signal: str) -> None:
-        """Record a signal; may be called by its handler, at any moment of this thread."""
-        kind: Literal["hang_up", "signal"] = "hang_up" if signal == "SIGHUP" else "signal"
-        self._interruption = Interruption(kind, signal=signal)
-        if not self._writing:
-            self._write_interruption()
-
-    @contextmanager
-    def _whole(self) -> Iterator[None]:
-        """Let a signal's record wait until the lines being written are."""
-        self._writing = True
-        try:
-            yield
-        finally:
-            self._writing = False
-            self._write_interruption()
-
-    def _write_interruption(self) -> None:
-        record, self._interruption = self._interruption, None
-        if record is not None:
-            self.journal.append(record)
-
 
 def open_session(
     study: Study,
@@ -206,38 +177,42 @@ def open_session(
     """
     clock = clock or SystemClock()
     path = study.home(identity) / JOURNAL
-    study.ledger.agree(study.copy.sha256)
-    ending = ending_of(study.ledger.entries(), identity.participant, identity.mode)
-    if ending == "dropped":
-        study.ledger.come_back(identity.participant, identity.mode)
-    if ending == "withdrawn":
-        raise StudyError(
-            f"{identity.participant} has withdrawn from the study",
-            place=str(study.folder),
-            mend="Take part under another ID",
-        )
+    _admit(study, identity)
+
+    def keep() -> Sink:
+        return sink(path)
+
     if not path.exists() or b"\n" not in read_file(path):
         started = _opening(study, identity, terminal, rescuer)
         journal = Journal.buffered(None, started, clock)
-        return StudySession(study, identity, journal, clock, started, lambda: sink(path))
+        return StudySession(study, identity, journal, clock, started, keep)
     transcript = read_journal(path)
-    before = transcript.entries
-    over = progress((entry.envelope, entry.record) for entry in before).over
-    journal = (
-        Journal.buffered(None, transcript.started, clock)
-        if over
-        else Journal.resume(path, terminal, clock)
-    )
-    session = StudySession(
-        study, identity, journal, clock, transcript.started, lambda: sink(path), before
-    )
-    if over:
-        return session
+    started, before = transcript.started, transcript.entries
+    if progress((entry.envelope, entry.record) for entry in before).over:
+        journal = Journal.buffered(None, started, clock)
+        return StudySession(study, identity, journal, clock, started, keep, before)
+    journal = Journal.resume(path, terminal, clock)
+    session = StudySession(study, identity, journal, clock, started, keep, before)
     if silent_ms is not None:
         session.record(TakenOver(silent_ms))
     if _study_hash(before) != study.copy.sha256:
         session.record(StudyAmended(study.copy, amendment(study)))
     return session
+
+
+def _admit(study: Study, identity: Identity) -> None:
+    """See that the ledger lets this participant take part, and let a drop-out come back."""
+    participant, mode = identity.participant, identity.mode
+    study.ledger.agree(study.copy.sha256)
+    ending = ending_of(study.ledger.entries(), participant, mode)
+    if ending == "dropped":
+        study.ledger.come_back(participant, mode)
+    if ending == "withdrawn":
+        raise StudyError(
+            f"{participant} has withdrawn from the study",
+            place=str(study.folder),
+            mend="Take part under another ID",
+        )
 
 
 def _opening(

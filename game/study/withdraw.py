@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-from pathlib import Path
 
+from game.session.sink import sync_folder
 from game.study.folder import Identity, Study, StudyError
 from game.study.lock import SessionLock
 
@@ -32,16 +31,8 @@ def withdraw(study: Study, identity: Identity) -> bool:
                 place=str(home),
                 mend="Delete the folder by hand; the withdrawal itself is recorded",
             ) from error
-        _sync(home.parent)
+        sync_folder(home.parent)
         return recorded
     finally:
         if lock is not None:
             lock.release()
-
-
-def _sync(folder: Path) -> None:
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -13,16 +13,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean, median, quantiles
 
-from game.study.folder import SETTINGS, Identity, Study, open_study
+from game.study.folder import Identity, Study
 from tests.bench.screen import COLUMNS, ROWS, answers
 from tests.study.people import small_study, take_part
-from tests.study.server import Server
+from tests.study.server import BY_KEY, Server
 from tests.terminal import Terminal
 
 PARTICIPANTS = 12
 PER_SECOND = 8.0
 KEYS_EACH = 80
-BY_KEY = 'restrict,pty,environment="ANA_PARTICIPANT={}"'
 BEFORE, WITHIN = "Your mission", "for reds"
 """On the page before the mission, and on its panel."""
 
@@ -85,11 +84,13 @@ def at_once(
 
 def _study(folder: Path) -> Study:
     """A study whose missions last four minutes, at pace 20."""
-    quick = {"memorise_seconds": "[1, 2]", "label_seconds": "2", "duration_ms": "240000"}
-    path = small_study(folder, **quick).folder / SETTINGS
-    pace = "moves_per_second = 20\nallow_pause"
-    path.write_text(path.read_text().replace("allow_pause", pace))
-    return open_study(folder)
+    return small_study(
+        folder,
+        memorise_seconds="[1, 2]",
+        label_seconds="2",
+        duration_ms="240000",
+        moves_per_second="20",
+    )
 
 
 def _serve_instead(configuration: Path, command: Sequence[str]) -> None:

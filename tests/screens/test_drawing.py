@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from game.coach.records import PosteriorEvaluated
 from game.screens.bar import LINES, bar_rows
-from game.screens.canvas import Row, difference, padded, plain, sliced, width
+from game.screens.canvas import Row, difference, padded, plain, sliced, width, wrapped
 from game.screens.charts import Step, area_chart, step_chart
 from game.screens.coachpanel import gauge
 from game.screens.minimap import HALF_BLOCKS, QUARTER_BLOCKS, SmallMap
@@ -22,9 +22,22 @@ from game.world.settings import MissionSettings
 
 HARBOUR = load_building("harbour")
 words = st.lists(st.text("abcdefgh.", min_size=1, max_size=12), min_size=1, max_size=60)
-rows = st.lists(st.tuples(st.text("xyz", max_size=6), st.sampled_from("abc")), max_size=8).map(
+rows = st.lists(st.tuples(st.text("xyz室", max_size=6), st.sampled_from("abc")), max_size=8).map(
     tuple
 )
+
+
+RIGHT_HALF = "right half"
+
+
+def cells(row: Row) -> list[tuple[str, str]]:
+    """What stands in each column, and its style."""
+    return [
+        (half, style)
+        for text, style in row
+        for letter in text
+        for half in ((letter, RIGHT_HALF) if letter == "室" else (letter,))
+    ]
 
 
 @given(words, words.map(lambda w: w[:6]), st.integers(60, 200), st.booleans())
@@ -54,17 +67,31 @@ def test_what_lies_outside_the_difference_is_the_same(old: Row, new: Row, column
     assume(old != new)
     start, end = difference(old, new, columns)
 
-    def cells(row: Row) -> list[tuple[str, str]]:
-        return [(letter, style) for text, style in padded(row, columns) for letter in text]
-
-    before, after = cells(old), cells(new)
+    before, after = cells(padded(old, columns)), cells(padded(new, columns))
     assert before[:start] == after[:start]
     assert before[max(start, end) :] == after[max(start, end) :]
 
 
 @given(rows, st.integers(0, 30), st.integers(0, 30))
-def test_a_slice_is_a_slice_of_the_text(row: Row, start: int, length: int) -> None:
-    assert plain([sliced(row, start, start + length)]) == [plain([row])[0][start : start + length]]
+def test_a_slice_is_a_slice_of_the_columns(row: Row, start: int, length: int) -> None:
+    wanted = cells(row)[start : start + length]
+    if wanted and wanted[0][0] == RIGHT_HALF:
+        wanted[0] = " ", wanted[0][1]
+    if wanted and wanted[-1][0] == "室":
+        wanted[-1] = " ", wanted[-1][1]
+    assert cells(sliced(row, start, start + length)) == wanted
+
+
+@given(rows, st.integers(1, 40))
+def test_a_padded_row_has_its_columns(row: Row, columns: int) -> None:
+    assert width(padded(row, columns)) == columns
+
+
+@given(st.text("abc ", max_size=60) | st.text("室長 ", max_size=60), st.integers(4, 30))
+def test_no_line_of_a_wrapped_text_is_too_wide(text: str, columns: int) -> None:
+    lines = wrapped(text, columns)
+    assert all(width(((line, ""),)) <= columns for line in lines)
+    assert "".join(lines).replace(" ", "") == text.replace(" ", "")
 
 
 @settings(max_examples=10)

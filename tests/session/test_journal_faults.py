@@ -2,14 +2,12 @@
 
 import errno
 import os
-import resource
 import select
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -24,20 +22,10 @@ from game.session.reader import first_discontinuity, parse_journal, read_journal
 from game.session.records import Paused, Resumed
 from game.session.verify import verify
 from game.world.events import Acted, Action
+from tests.disks import files_no_longer_than
 from tests.session.toy import HUT, SETTINGS, SPEC, opening, toy
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-@contextmanager
-def files_no_longer_than(size: int) -> Iterator[None]:
-    """A disk that is full once a file has `size` bytes: the last write to it comes out short."""
-    before, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (before, hard))
 
 
 def failing(code: int) -> Callable[..., int]:

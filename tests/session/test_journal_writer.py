@@ -137,12 +137,12 @@ def test_ending_records_how(tmp_path: Path) -> None:
     run.press(Action.EAST, 100)
     journal.append(Paused(150))
     journal.append(Unpaused(150))
-    journal.append(Interruption("hang_up", signal="SIGHUP"))
-    end_free_play(run, journal, 250, interrupted=True)
+    journal.interrupt("SIGHUP")
+    end_free_play(run, journal, 250)
     journal.close()
     *_, abandoned, ended = (entry.record for entry in read_journal(path).entries)
-    assert abandoned == MissionAbandoned(250, "interrupted")
-    assert ended == SessionEnded("interrupted")
+    assert abandoned == MissionAbandoned(250, "quit")
+    assert ended == SessionEnded("quit")
     assert verify(path, build=toy).reproduced
 
 

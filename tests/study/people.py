@@ -30,7 +30,8 @@ MISSION_MS = 6_000
 
 
 def small_study(folder: Path, **changes: str) -> Study:
-    """A study whose timed phases take seconds; `changes` replace values of study.toml."""
+    """A study whose timed phases take seconds; `changes` replace values of study.toml, or add
+    rules of the mission that it does not name."""
     new_study(folder, seed=7, blocks=1)
     values = {
         "memorise_seconds": "[3, 5]",
@@ -40,10 +41,12 @@ def small_study(folder: Path, **changes: str) -> Study:
     }
     path = folder / "study.toml"
     lines = [
-        f"{key} = {values[key]}" if (key := line.partition(" = ")[0]) in values else line
+        f"{key} = {values.pop(key)}" if (key := line.partition(" = ")[0]) in values else line
         for line in path.read_text().splitlines()
     ]
-    path.write_text("\n".join(lines) + "\n")
+    rules = [f"{key} = {value}" for key, value in values.items()]
+    first = 1 + next(n for n, line in enumerate(lines) if line.startswith("[mission]"))
+    path.write_text("\n".join([*lines[:first], *rules, *lines[first:]]) + "\n")
     return open_study(folder)
 
 

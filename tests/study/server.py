@@ -13,9 +13,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Self
 
+from tests.terminal import Terminal
+
 ANA = Path(sys.executable).with_name("ana")
 SSHD = shutil.which("sshd", path=f"{os.environ.get('PATH', '')}:/usr/sbin:/usr/local/sbin")
 SSH = shutil.which("ssh")
+BY_KEY = 'restrict,pty,environment="ANA_PARTICIPANT={}"'
+"""What authorized_keys says of a key that is one participant's."""
 
 
 class Server:
@@ -85,6 +89,11 @@ class Server:
             name, _, value = line.partition(" ")
             settings[name] = f"{settings[name]} {value}" if name in settings else value
         return settings
+
+
+def login(server: Server, key: str, *arguments: str, **env: str) -> Terminal:
+    """A client that logs in with `key`, in a window of the study's size."""
+    return Terminal(server.ssh(key, *arguments), columns=120, rows=40, env=env)
 
 
 def _free_port() -> int:

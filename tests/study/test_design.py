@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.study.design import BLOCK, HALF_BLOCK, Instructor, design_cell, half_block
+from game.study.design import BLOCK, HALF_BLOCK, design_cell, half_block
 
 seeds = st.integers(0, 2**32)
 
@@ -47,10 +47,11 @@ def test_seeds_and_streams_give_different_orders_and_the_same_ones_every_time() 
     assert allocation(7, 3) == ["1-SA-C2-b1", "3-AS-C2-b1", "1-AS-C3-b1"]
 
 
-def test_a_cell_says_what_each_round_is() -> None:
-    cell = next(cell for cell in half_block(False) if cell.adaptive_first)
-    assert cell.instructors == (Instructor.ADAPTIVE, Instructor.STATIC)
-    assert sorted(cell.buildings) == [0, 1]
+@pytest.mark.parametrize("complemented", [False, True])
+def test_a_round_is_in_each_building(complemented: bool) -> None:
+    for cell in half_block(complemented):
+        assert cell.buildings[0] == cell.first_building
+        assert sorted(cell.buildings) == [0, 1]
 
 
 def test_a_negative_slot_is_refused() -> None:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from random import Random
 
@@ -29,6 +26,7 @@ from game.study.folder import Study
 from game.study.ledger import LedgerError
 from game.study.protocol import TIMELINE, Step, next_point, progress
 from game.study.roll import Roll
+from tests.disks import files_no_longer_than
 from tests.study.people import P01, journal_of, small_study, take_part
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -150,17 +148,6 @@ def test_killed_at_a_random_moment(tmp_path: Path, number: int) -> None:
 @pytest.mark.parametrize("number", range(QUICK_KILLS, KILLS))
 def test_killed_at_two_hundred_random_moments(tmp_path: Path, number: int) -> None:
     kill_and_come_back(tmp_path, number)
-
-
-@contextmanager
-def files_no_longer_than(size: int) -> Iterator[None]:
-    """A disk that is full once a file has `size` bytes: the last write to it comes out short."""
-    before, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (before, hard))
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.93])

@@ -4,36 +4,30 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
-from game.session.records import PhaseEnded, Preflighted, Resumed, SessionEnded, TakenOver
+from game.session.records import Preflighted, TakenOver
 from game.study.folder import Identity, Study, StudyError
 from game.study.sshd import LoopbackServer, configuration, who_logs_in
-from tests.study.people import MISSION_MS, journal_of, small_study, take_part
-from tests.study.server import SSH, SSHD, Server
+from tests.study.participant import TerminalParticipant
+from tests.study.people import journal_of, small_study, take_part
+from tests.study.server import BY_KEY, SSH, SSHD, Server, login
 from tests.terminal import Terminal
-
-Kind = TypeVar("Kind")
 
 needs_sshd = pytest.mark.skipif(
     SSHD is None or SSH is None, reason="OpenSSH's server or client is not installed"
 )
-BY_KEY = 'restrict,pty,environment="ANA_PARTICIPANT={}"'
-P02, P03, P04, P07 = (Identity("live", name) for name in ("P02", "P03", "P04", "P07"))
+P02, P04, P07 = (Identity("live", name) for name in ("P02", "P04", "P07"))
 REFUSAL = "needs a terminal"
 SHELL_SIGNS = ("uid=", "root@", "$ ", "# ")
 
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    return small_study(
-        tmp_path_factory.mktemp("ssh") / "a study", memorise_seconds="[1, 2]", label_seconds="2"
-    )
+    return small_study(tmp_path_factory.mktemp("ssh") / "a study")
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +37,6 @@ def server(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Iterator[S
     folder = tmp_path_factory.mktemp("server") / "keys"
     with Server(study.folder, folder, options) as running:
         yield running
-
-
-def login(server: Server, key: str, *arguments: str, **env: str) -> Terminal:
-    return Terminal(server.ssh(key, *arguments), columns=120, rows=40, env=env)
 
 
 def run(command: list[str], **keywords: object) -> subprocess.CompletedProcess[str]:
@@ -208,14 +198,6 @@ def test_a_shared_key_asks_for_the_id(server: Server, study: Study) -> None:
 # --- taking part --------------------------------------------------------------------------------
 
 
-def agree(terminal: Terminal) -> None:
-    """From login to behind consent."""
-    terminal.wait_for("Before you begin")
-    press_until(terminal, "Enter", "up", "down", "left", "right", " ")
-    press_until(terminal, "I want to take part", "enter")
-    press_until(terminal, "How to play", "1", "enter")
-
-
 @needs_sshd
 @pytest.mark.parametrize(
     ("participant", "term", "colorterm", "colours"),
@@ -231,7 +213,9 @@ def test_the_terminal_behind_the_line_is_known(
     with login(server, "lab", TERM=term, COLORTERM=colorterm) as terminal:
         terminal.wait_for("participant ID")
         terminal.write(f"{participant}\r".encode())
-        agree(terminal)
+        person = TerminalParticipant(terminal, study, Identity("live", participant))
+        person.preflight()
+        person.consent()
         raw = b"".join(chunk.data for chunk in terminal.chunks)
     records = [entry.record for entry in journal_of(study, Identity("live", participant)).entries]
     found = next(record for record in records if isinstance(record, Preflighted))
@@ -256,72 +240,6 @@ def up_to(study: Study, identity: Identity, what: str) -> None:
         take_part(study, identity, moment=moment)
 
 
-def press_until(terminal: Terminal, text: str, *keys: str) -> None:
-    """Press the keys, again and again, until `text` comes up: a page is deaf for a moment."""
-    until = time.monotonic() + 20
-    while text not in (shown := terminal.text()):
-        assert time.monotonic() < until, shown
-        for key in keys:
-            terminal.press(key)
-            terminal.read_for(0.1)
-
-
-def to_the_mission(terminal: Terminal) -> None:
-    """Memorise for its time, label until that is over, and begin the mission."""
-    terminal.wait_for("Memorise the map")
-    press_until(terminal, "left", "enter")
-    terminal.wait_for("Label the rooms")
-    press_until(terminal, "left", "enter")
-    terminal.wait_for("Your mission")
-    press_until(terminal, "for reds", "enter")
-
-
-def rate(terminal: Terminal, following: str) -> None:
-    """Answer all sliders and statements."""
-    terminal.wait_for("How was it?")
-    press_until(terminal, "Enter", "right", "down")
-    press_until(terminal, "Your instructor", "enter")
-    press_until(terminal, "Enter", "4", "down")
-    press_until(terminal, following, "enter")
-
-
-def records_of(study: Study, identity: Identity, kind: type[Kind]) -> list[Kind]:
-    return [
-        entry.record
-        for entry in journal_of(study, identity).entries
-        if isinstance(entry.record, kind)
-    ]
-
-
-@needs_sshd
-def test_cut_off_in_mid_mission_and_back_to_finish(server: Server, study: Study) -> None:
-    up_to(study, P03, "memorise")
-    with login(server, "p03") as terminal:
-        to_the_mission(terminal)
-        terminal.press("left", "left")
-        terminal.read_for(1.5)
-        terminal.kill(signal.SIGKILL)
-        terminal.wait()
-    with login(server, "p03") as terminal:
-        rate(terminal, "Memorise the map")
-        to_the_mission(terminal)
-        rate(terminal, "Both instructors")
-        press_until(terminal, "Why?", "1", "enter")
-        terminal.read_for(0.6)
-        press_until(terminal, "completion code", "enter")
-    mission, second = (
-        entry.record
-        for entry in journal_of(study, P03).entries
-        if isinstance(entry.record, PhaseEnded) and entry.envelope.phase == "mission"
-    )
-    assert mission.ending == "interrupted"
-    assert 1_000 <= mission.exposure_ms < MISSION_MS
-    assert second.ending == "completed"
-    assert len(records_of(study, P03, Resumed)) == 2
-    assert records_of(study, P03, SessionEnded)[-1].reason == "finished"
-    assert study.ledger.entries()[-1].participant == "P03"  # type: ignore[union-attr]
-
-
 @needs_sshd
 def test_a_suspended_client_is_taken_over(server: Server, study: Study) -> None:
     up_to(study, P04, "prefer")
@@ -335,4 +253,5 @@ def test_a_suspended_client_is_taken_over(server: Server, study: Study) -> None:
         frozen.kill(signal.SIGCONT)
         assert frozen.wait() != 0
         assert not [sign for sign in SHELL_SIGNS if sign in frozen.text()]
-    assert len(records_of(study, P04, TakenOver)) == 1
+    records = [entry.record for entry in journal_of(study, P04).entries]
+    assert sum(isinstance(record, TakenOver) for record in records) == 1

@@ -19,10 +19,10 @@ from game.screens.dialogs import Question
 from game.screens.mission import Failed, Finished
 from game.screens.signals import lead_out
 from game.screens.study.base import Frame
-from game.screens.study.mission import StudyMission
 from game.screens.study.pages import PageScreen
 from game.screens.study.participant import ScreenParticipant
-from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits, terminal
+from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits
+from game.screens.terminal import this_terminal
 from game.screens.theme import THEMES, theme_name
 from game.study.conduct import conduct
 from game.study.folder import Identity, Study
@@ -54,7 +54,6 @@ class StudyApp(App[None], inherit_bindings=False):
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)
         self.session: StudySession | None = None
-        self.live: StudyMission | None = None
         self.mission_over: asyncio.Future[bool] | None = None
         self.failure: AnaError | None = None
 
@@ -87,7 +86,7 @@ class StudyApp(App[None], inherit_bindings=False):
             lock = await asyncio.to_thread(take_over, home)
         try:
             self.session = open_session(
-                self.study, self.identity, terminal(*self.size), silent_ms=silent_ms
+                self.study, self.identity, this_terminal(*self.size), silent_ms=silent_ms
             )
             rules = self.study.settings.mission
             person = ScreenParticipant(self, self.frame, self.study.texts, rules)
@@ -104,9 +103,8 @@ class StudyApp(App[None], inherit_bindings=False):
     # --- what breaks in -------------------------------------------------------------------------
 
     def _note_signal(self, name: str) -> None:
-        told = self.live or self.session
-        if told is not None:
-            told.interrupt(name)
+        if self.session is not None:
+            self.session.journal.interrupt(name)
 
     def _leave(self, status: int) -> None:
         self.exit(return_code=status)

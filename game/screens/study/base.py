@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from time import monotonic
 from typing import ClassVar, Generic, TypeVar
 
@@ -12,6 +13,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Vertical, VerticalScroll
 from textual.content import Content
 from textual.screen import Screen
+from textual.widget import Widget
 from textual.widgets import Static
 
 from game.errors import AnaError
@@ -23,12 +25,12 @@ from game.study.texts import Page, Words
 Result = TypeVar("Result")
 
 
+@dataclass(frozen=True)
 class Frame:
     """What a study gives all its screens: their size and their small words."""
 
-    def __init__(self, size: ScreenSize, words: Words) -> None:
-        self.size = size
-        self.words = words
+    size: ScreenSize
+    words: Words
 
     def stop_question(self) -> Question:
         """Asks whether to stop taking part."""
@@ -40,22 +42,26 @@ class Stage(Vertical):
     """Holds a screen's widgets, in the middle of the terminal and never larger than the study
     says: a larger terminal has blank margins."""
 
-    def __init__(self, frame: Frame, id: str | None = None) -> None:
-        super().__init__(id=id, classes="stage")
+    def __init__(self, frame: Frame, *content: Widget) -> None:
+        super().__init__(*content, classes="stage")
         self.styles.width = frame.size.columns
         self.styles.height = frame.size.rows
 
 
 class Column(VerticalScroll):
-    """Text in the middle of the stage; it scrolls where a lab wrote more than fits."""
+    """A page in the middle of the stage, with `below` under its text; it scrolls where a lab wrote
+    more than fits."""
 
-    def __init__(self, *, wide: bool = False) -> None:
-        super().__init__(classes="wide" if wide else None)
+    def __init__(self, page: Page, *below: Widget, wide: bool = False) -> None:
+        super().__init__(heading(page), body(page), *below, classes="wide" if wide else None)
 
 
 class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
-    """Dismissed with its result, with None when the participant stops taking part, or with the
-    error that keeps it from going on."""
+    """Shows `content` on the stage, from top to bottom.
+
+    Dismissed with its result, with None when the participant stops taking part, or with the error
+    that keeps it from going on.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+c,ctrl+q", "stop", "Stop", id="study.stop", priority=True),
@@ -63,19 +69,15 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
     DEAF_S: ClassVar[float] = 0.0
     """For so long keys do nothing, where the last ones were meant for something else."""
 
-    def __init__(self, frame: Frame) -> None:
+    def __init__(self, frame: Frame, content: Sequence[Widget]) -> None:
         super().__init__()
         self.frame = frame
+        self._content = content
         self._deaf_until = 0.0
         self._done = False
 
     def compose(self) -> ComposeResult:
-        with Stage(self.frame):
-            yield from self.content()
-
-    def content(self) -> ComposeResult:
-        """The widgets on the stage."""
-        raise NotImplementedError
+        yield Stage(self.frame, *self._content)
 
     def on_mount(self) -> None:
         self._deaf_until = monotonic() + self.DEAF_S

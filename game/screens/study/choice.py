@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Sequence
-from textwrap import wrap
 from typing import ClassVar
 
-from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.widgets import Static
 
-from game.screens.canvas import BLANK, Canvas, Row
+from game.screens.canvas import BLANK, Canvas, Row, wrapped
 from game.screens.keyline import KeyLine
-from game.screens.study.base import Column, Frame, StudyScreen, body, heading
+from game.screens.study.base import Column, Frame, StudyScreen
 from game.study.texts import Page
 
 INDENT = 6
@@ -24,7 +22,7 @@ def choice_rows(options: Sequence[str], chosen: int | None, columns: int) -> lis
     for number, option in enumerate(options):
         picked = number == chosen
         style = "chosen" if picked else "option"
-        lines = wrap(option, max(10, columns - INDENT - 1)) or [""]
+        lines = wrapped(option, max(10, columns - INDENT - 1)) or [""]
         for place, line in enumerate(lines):
             mark = (" (•)  " if picked else " ( )  ") if place == 0 else " " * INDENT
             rows.append(((f"{mark}{line} ".ljust(columns), style),))
@@ -68,8 +66,8 @@ class ChoiceScreen(StudyScreen[int]):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up,k", "move(-1)", id="choice.up", priority=True),
         Binding("down,j", "move(1)", id="choice.down", priority=True),
-        *(Binding(str(number), f"pick({number})") for number in range(1, 10)),
-        Binding("enter", "confirm", id="choice.confirm"),
+        *(Binding(str(number), f"pick({number})", priority=True) for number in range(1, 10)),
+        Binding("enter", "confirm", id="choice.confirm", priority=True),
     ]
     DEAF_S = 0.3
 
@@ -82,23 +80,13 @@ class ChoiceScreen(StudyScreen[int]):
         question: str = "",
         save: Callable[[int], Awaitable[None]] | None = None,
     ) -> None:
-        super().__init__(frame)
-        self._page = page
-        self._question = question
-        self._choice = Choice(options)
+        choice = Choice(options)
+        asked = [Static(question, classes="question", markup=False)] if question else []
+        super().__init__(frame, [Column(page, *asked, choice), KeyLine(id="keys")])
+        self._choice = choice
         self._save = save
 
-    def content(self) -> ComposeResult:
-        with Column():
-            yield heading(self._page)
-            yield body(self._page)
-            if self._question:
-                yield Static(self._question, classes="question", markup=False)
-            yield self._choice
-        yield KeyLine(id="keys")
-
     def on_mount(self) -> None:
-        super().on_mount()
         self.call_after_refresh(self.show_keys, ("↑ ↓", self.frame.words.choose))
 
     def action_move(self, way: int) -> None:

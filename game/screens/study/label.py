@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from textual import events
-from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 
@@ -56,10 +55,10 @@ class LabelScreen(StudyScreen[bool]):
     """Asks about one room after another, in any order the participant likes."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("up", "move(-1)", id="label.up", priority=True),
-        Binding("down", "move(1)", id="label.down", priority=True),
-        Binding("left,shift+tab", "turn(-1)", id="label.previous", priority=True),
-        Binding("right,tab", "turn(1)", id="label.next", priority=True),
+        Binding("up", "move(-1)", id="label.up"),
+        Binding("down", "move(1)", id="label.down"),
+        Binding("left,shift+tab", "turn(-1)", id="label.previous"),
+        Binding("right,tab", "turn(1)", id="label.next"),
         Binding("enter", "give", id="label.give"),
         Binding("delete", "take_back", id="label.take_back"),
         Binding("backspace", "rub_out", id="label.rub_out"),
@@ -68,16 +67,11 @@ class LabelScreen(StudyScreen[bool]):
     DEAF_S = 0.3
 
     def __init__(self, frame: Frame, title: str, labelling: Labelling) -> None:
-        super().__init__(frame)
         words = frame.words
-        self.labelling = labelling
-        self._asked = 0
-        self._typed = ""
-        self._cursor = 0
-        self._line = TimeLine(title, words.left, labelling.exposure.limit_ms)
-        self._map = PlanMap(labelling.building)
-        self._names = NameList(words.finish)
-        self._keys = KeyLine(
+        line = TimeLine(title, words.left, labelling.exposure.limit_ms)
+        plan = PlanMap(labelling.building)
+        names = NameList(words.finish)
+        keys = KeyLine(
             ("↑ ↓", words.choose),
             ("Enter", words.answer),
             ("← →", words.next),
@@ -85,14 +79,15 @@ class LabelScreen(StudyScreen[bool]):
             ("Del", words.clear),
             id="keys",
         )
-
-    def content(self) -> ComposeResult:
-        yield self._line
-        with Horizontal(classes="side-by-side"):
-            yield self._map
-            with Vertical(classes="name-column"):
-                yield self._names
-        yield self._keys
+        columns = Horizontal(plan, Vertical(names, classes="name-column"), classes="side-by-side")
+        super().__init__(frame, [line, columns, keys])
+        self.labelling = labelling
+        self._asked = 0
+        self._typed = ""
+        self._cursor = 0
+        self._line = line
+        self._map = plan
+        self._names = names
 
     @property
     def room(self) -> Room:
@@ -100,7 +95,6 @@ class LabelScreen(StudyScreen[bool]):
         return self.labelling.rooms[self._asked]
 
     def on_mount(self) -> None:
-        super().on_mount()
         rooms, given = self.labelling.rooms, self.labelling.given
         self._asked = next((n for n, room in enumerate(rooms) if room.name not in given), 0)
         self.call_after_refresh(self._begin)
@@ -137,14 +131,17 @@ class LabelScreen(StudyScreen[bool]):
         return matching(self.labelling.names, self._typed)
 
     def _show(self) -> None:
+        self._map.name_rooms(self.labelling.given, self.room)
+        self._show_names()
+
+    def _show_names(self) -> None:
         given, count = self.labelling.given, len(self.labelling.rooms)
-        self._map.name_rooms(given, self.room)
         place = f" {self._asked + 1} / {count}   {USED} {len(given)}"
         self._names.show(self._typed, self._found, tuple(given.values()), self._cursor, place)
 
     def action_move(self, way: int) -> None:
         self._cursor = (self._cursor + way) % (len(self._found) + 1)
-        self._show()
+        self._show_names()
 
     def action_turn(self, way: int) -> None:
         self._asked = (self._asked + way) % len(self.labelling.rooms)
@@ -186,15 +183,19 @@ class LabelScreen(StudyScreen[bool]):
         self._type("")
 
     def on_key(self, event: events.Key) -> None:
+        """A letter waits its turn among the keys that the app carries out."""
         letter = event.character
         if letter and letter.isprintable() and self.check_action("type", ()):
-            self._type((self._typed + letter).lstrip())
+            self.app.call_later(self._add, letter)
             event.stop()
+
+    def _add(self, letter: str) -> None:
+        self._type((self._typed + letter).lstrip())
 
     def _type(self, typed: str) -> None:
         self._typed = typed
         self._cursor = 0
-        self._show()
+        self._show_names()
 
     def _ask_to_finish(self) -> None:
         words = self.frame.words

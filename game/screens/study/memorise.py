@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from textual.app import ComposeResult
 from textual.containers import Center
 
 from game.screens.study.base import Frame, StudyScreen
@@ -15,15 +14,10 @@ class MemoriseScreen(StudyScreen[bool]):
     """Shows the map until the exposure is over."""
 
     def __init__(self, frame: Frame, title: str, task: Memorising) -> None:
-        super().__init__(frame)
+        line = TimeLine(title, frame.words.left, task.exposure.limit_ms)
+        super().__init__(frame, [line, Center(PlanMap(task.building), classes="middle")])
         self._exposure = task.exposure
-        self._map = PlanMap(task.building)
-        self._line = TimeLine(title, frame.words.left, task.exposure.limit_ms)
-
-    def content(self) -> ComposeResult:
-        yield self._line
-        with Center(classes="middle"):
-            yield self._map
+        self._line = line
 
     def on_mount(self) -> None:
         self.call_after_refresh(self._begin)

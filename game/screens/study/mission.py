@@ -28,15 +28,13 @@ class StudyMission(LiveMission):
         super().__init__(task.begin(), task.journal, PacedClock(task.clock))
         self.task = task
 
-    def end(self, *, interrupted: bool = False) -> None:
-        with self._whole():
-            self.task.leave(self.now_ms())
-            self.journal.flush_durably()
+    def end(self) -> None:
+        self.task.leave(self.now_ms())
+        self.journal.flush_durably()
 
     def tick(self) -> None:
         """Record the exposure."""
-        with self._whole():
-            self.task.tick(self.now_ms())
+        self.task.tick(self.now_ms())
 
 
 class Reminder(ModalScreen[None]):
@@ -77,11 +75,9 @@ class StudyMissionScreen(MissionScreen):
         self.reminder = reminder
 
     def compose(self) -> ComposeResult:
-        with Stage(self.frame):
-            yield self.view
+        yield Stage(self.frame, self.view)
 
     def on_mount(self) -> None:
-        super().on_mount()
         if self.live.task.goals is None:
             self.set_interval(TICK_S, self._expose)
 

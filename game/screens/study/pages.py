@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.widget import Widget
 
@@ -12,7 +11,7 @@ from game.screens.canvas import BLANK, Canvas
 from game.screens.glyphs import PLAIN, SOLID, STYLES
 from game.screens.howto import sign_rows, walking_rows
 from game.screens.keyline import KeyLine
-from game.screens.study.base import Column, Frame, StudyScreen, body, heading
+from game.screens.study.base import Column, Frame, StudyScreen
 from game.study.texts import Page
 
 
@@ -25,19 +24,9 @@ class PageScreen(StudyScreen[bool]):
     DEAF_S = 0.3
 
     def __init__(self, frame: Frame, page: Page, *below: Widget) -> None:
-        super().__init__(frame)
-        self._page = page
-        self._below = below
-
-    def content(self) -> ComposeResult:
-        with Column():
-            yield heading(self._page)
-            yield body(self._page)
-            yield from self._below
-        yield KeyLine(id="keys")
+        super().__init__(frame, [Column(page, *below), KeyLine(id="keys")])
 
     def on_mount(self) -> None:
-        super().on_mount()
         self.call_after_refresh(self.show_keys, ("Enter", self.frame.words.go_on))
 
     def action_go_on(self) -> None:

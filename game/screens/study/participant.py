@@ -65,16 +65,12 @@ class ScreenParticipant:
 
     async def play(self, task: Playing) -> None:
         app = self._app
-        app.live = StudyMission(task)
         app.mission_over = asyncio.get_running_loop().create_future()
-        screen = StudyMissionScreen(self._frame, app.live, self._texts.lessons.walking)
-        try:
-            await app.push_screen(screen)
-            complete = await app.mission_over
-            app.uncover(screen)
-            app.pop_screen()
-        finally:
-            app.live = None
+        screen = StudyMissionScreen(self._frame, StudyMission(task), self._texts.lessons.walking)
+        await app.push_screen(screen)
+        complete = await app.mission_over
+        app.uncover(screen)
+        app.pop_screen()
         if not complete:
             raise Stopped
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from textwrap import wrap
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from textual import events
 from textual.app import ComposeResult
@@ -13,8 +13,9 @@ from textual.widgets import Static
 
 from game.screens.canvas import BLANK, Canvas, Run
 from game.screens.keyline import KeyLine
-from game.screens.study.base import Column, Frame, StudyScreen, body, heading
-from game.session.records import Preflighted, Terminal
+from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.terminal import colours, this_terminal
+from game.session.records import Preflighted
 from game.study.settings import ScreenSize
 
 ARROWS = {"up": "↑", "down": "↓", "left": "←", "right": "→", "space": "␣"}
@@ -22,23 +23,6 @@ ARROWS = {"up": "↑", "down": "↓", "left": "←", "right": "→", "space": "�
 
 COLUMNS = 74
 INDENT = 4
-
-Colours = Literal["none", "16", "256", "truecolor"]
-
-
-def colours() -> Colours:
-    """How many colours the terminal says it has."""
-    if os.environ.get("NO_COLOR"):
-        return "none"
-    if os.environ.get("COLORTERM", "").lower() in ("truecolor", "24bit"):
-        return "truecolor"
-    many = os.environ.get("TERM", "").endswith(("-256color", "-kitty"))
-    return "256" if many else "16"
-
-
-def terminal(columns: int, rows: int) -> Terminal:
-    """This terminal."""
-    return Terminal(os.environ.get("TERM", ""), os.environ.get("COLORTERM", ""), columns, rows)
 
 
 def fits(columns: int, rows: int, needed: ScreenSize) -> bool:
@@ -58,24 +42,16 @@ class PreflightScreen(StudyScreen[Preflighted]):
     """Goes on by itself to ask for Enter once all is well."""
 
     def __init__(self, frame: Frame) -> None:
-        super().__init__(frame)
+        checks, keys = Checks(), KeyLine(id="keys")
+        super().__init__(frame, [Column(frame.words.preflight, checks), keys])
         self._pressed: set[str] = set()
-        self._checks = Checks()
-        self._keys = KeyLine(id="keys")
-
-    def content(self) -> ComposeResult:
-        words = self.frame.words
-        with Column():
-            yield heading(words.preflight)
-            yield body(words.preflight)
-            yield self._checks
-        yield self._keys
+        self._checks = checks
+        self._keys = keys
 
     def on_resize(self, event: events.Resize) -> None:
         self._show()
 
     def on_mount(self) -> None:
-        super().on_mount()
         self._show()
 
     @property
@@ -84,11 +60,15 @@ class PreflightScreen(StudyScreen[Preflighted]):
 
     @property
     def _ready(self) -> bool:
-        return self._enough and self._pressed >= ARROWS.keys()
+        return self._enough and self._keys_work
+
+    @property
+    def _keys_work(self) -> bool:
+        return self._pressed >= ARROWS.keys()
 
     def _show(self) -> None:
         words, size = self.frame.words, self.app.size
-        enough, all_keys = self._enough, self._pressed >= ARROWS.keys()
+        enough, all_keys = self._enough, self._keys_work
         window = f"{words.size_fine}." if enough else size_text(self.frame, size.width, size.height)
         first, *more = wrap(window, max(20, min(size.width, COLUMNS) - INDENT))
         keys: list[Run] = [
@@ -113,9 +93,8 @@ class PreflightScreen(StudyScreen[Preflighted]):
             self._pressed.add(event.key)
             self._show()
         elif event.key == "enter" and self._ready:
-            self.finish(
-                Preflighted(terminal(*self.app.size), colours(), keys_work=True, enough=True)
-            )
+            terminal = this_terminal(*self.app.size)
+            self.finish(Preflighted(terminal, colours(os.environ), keys_work=True, enough=True))
 
 
 def mark(good: bool) -> Run:

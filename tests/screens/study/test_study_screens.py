@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
 import sys
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -44,29 +43,22 @@ from game.session.sink import FileSink
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
 from game.study.protocol import Step
-from tests.study.people import P01, journal_of, rewind, small_study, take_part
+from tests.study.people import P01, journal_of, rewind, small_study
 
 SIZE = (120, 40)
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    study = small_study(tmp_path_factory.mktemp("screens") / "finished")
-    assert take_part(study)[0] == "over"
-    return study
-
-
-@pytest.fixture
-def study(finished: Study, tmp_path: Path) -> Study:
-    shutil.copytree(finished.folder, tmp_path / "study")
-    return open_study(tmp_path / "study")
 
 
 @pytest.fixture(autouse=True)
 def _hearing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Screens listen at once."""
-    for screen in (StudyScreen, *StudyScreen.__subclasses__()):
+    for screen in _kinds_of(StudyScreen):
         monkeypatch.setattr(screen, "DEAF_S", 0.0)
+
+
+def _kinds_of(screen: type[StudyScreen[Any]]) -> Iterator[type[StudyScreen[Any]]]:
+    yield screen
+    for kind in screen.__subclasses__():
+        yield from _kinds_of(kind)
 
 
 @asynccontextmanager

@@ -7,7 +7,6 @@ import fcntl
 import os
 import pty
 import select
-import shutil
 import signal
 import struct
 import subprocess
@@ -15,7 +14,6 @@ import sys
 import termios
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
 
@@ -28,9 +26,9 @@ from game.session.records import (
     Resumed,
     SessionEnded,
 )
-from game.study.folder import Study, open_study
+from game.study.folder import Study
 from game.study.protocol import Step
-from tests.study.people import journal_of, rewind, small_study, take_part
+from tests.study.people import journal_of, rewind
 
 FROM_THE_KEYBOARD = b"\x03n\x04\x1a\x1c\x10\x11n"
 """Ctrl+C and no, Ctrl+D, Ctrl+Z, Ctrl+backslash, Ctrl+P, Ctrl+Q and no."""
@@ -94,19 +92,6 @@ class Terminal:
             self.process.kill()
         self.process.wait()
         os.close(self.master)
-
-
-@pytest.fixture
-def study(tmp_path: Path, finished: Study) -> Study:
-    shutil.copytree(finished.folder, tmp_path / "study")
-    return open_study(tmp_path / "study")
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    study = small_study(tmp_path_factory.mktemp("terminal") / "finished")
-    assert take_part(study)[0] == "over"
-    return study
 
 
 @pytest.fixture

@@ -1,0 +1,26 @@
+"""A study in which one scripted participant has finished, to be gone through again on screens."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from game.study.folder import Study, open_study
+from tests.study.people import small_study, take_part
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    """Not to be changed."""
+    study = small_study(tmp_path_factory.mktemp("screens") / "finished")
+    assert take_part(study)[0] == "over"
+    return study
+
+
+@pytest.fixture
+def study(finished: Study, tmp_path: Path) -> Study:
+    """A copy of it."""
+    shutil.copytree(finished.folder, tmp_path / "study")
+    return open_study(tmp_path / "study")

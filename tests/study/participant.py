@@ -1,0 +1,382 @@
+"""A participant at a real terminal, who reads its screen and presses its keys.
+
+What a page asks is read off the screen. The way through a building is planned on its plan, and
+where the rescuer stands is read in the journal, which has each step before it is painted. Every
+key is pressed once, several in one go: none may be lost or overtake another. Only where a page
+is deaf for a moment are keys held back.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from time import monotonic
+
+import msgspec
+
+from game.coach.records import InstructionIssued
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.pages import PageScreen
+from game.screens.study.reason import ReasonScreen
+from game.screens.study.sliders import SlidersScreen
+from game.session.play import JOURNAL
+from game.session.records import (
+    Allocated,
+    Exposed,
+    MissionAbandoned,
+    MissionStarted,
+    Record,
+)
+from game.study.folder import Identity, Study
+from game.study.practice import legs
+from game.study.session import CODE_LENGTH, CODE_LETTERS, session_seed
+from game.world.building import Building, Room, VictimSite
+from game.world.events import Acted, Action, MissionEnded, Rescued
+from game.world.floodfill import cost_to_go
+from game.world.geometry import Cell
+from game.world.reading import parse_building
+from tests.study.people import towards
+from tests.terminal import Terminal
+
+PATIENCE_S = 60.0
+"""How long anything may take on a busy machine."""
+KEYS = {
+    Action.NORTH: "up",
+    Action.EAST: "right",
+    Action.SOUTH: "down",
+    Action.WEST: "left",
+    Action.TRIAGE: "space",
+}
+WALL = re.compile("[▀▄█]")
+"""What the walls of a map are drawn with."""
+
+
+@dataclass
+class Walk:
+    """A mission as far as the journal has it."""
+
+    building: Building
+    position: Cell
+    actions: int = 0
+    rescued: set[str] = field(default_factory=set)
+    instruction: str = ""
+    exposure_ms: int = 0
+    left: bool = False
+    """It has ended, or was left before its end."""
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing is left to do in it."""
+        return self.left or len(self.rescued) == len(self.building.victims)
+
+    @property
+    def nearest(self) -> VictimSite:
+        """The victim with the shortest way from here among those not rescued."""
+        plan, here = self.building.plan, self.building.plan.index(self.position)
+        waiting = (site for site in self.building.victims if site.id not in self.rescued)
+        return min(waiting, key=lambda site: cost_to_go(plan, site.cell)[here])
+
+    def note(self, record: Record) -> None:
+        """Follow what happened next."""
+        match record:
+            case InstructionIssued():
+                self.instruction = record.text
+            case Acted():
+                self.position = record.position
+                self.actions += 1
+            case Rescued():
+                self.rescued.add(record.victim)
+            case Exposed():
+                self.exposure_ms = record.exposure_ms
+            case MissionEnded() | MissionAbandoned():
+                self.left = True
+            case _:
+                pass
+
+
+class LiveJournal:
+    """How far the journal at `path` has come; `read_on` brings it up to date."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._offset = 0
+        self._decode = msgspec.json.Decoder(Record).decode
+        self.buildings = ("", "")
+        self.missions: list[Walk] = []
+        self.read_on()
+
+    def read_on(self) -> None:
+        """Note the lines that were written since."""
+        if not self._path.exists():
+            return
+        with self._path.open("rb") as file:
+            file.seek(self._offset)
+            read = file.read()
+        lines = read[: read.rfind(b"\n") + 1]
+        self._offset += len(lines)
+        for line in lines.splitlines():
+            self._note(self._decode(line))
+
+    def _note(self, record: Record) -> None:
+        if isinstance(record, Allocated):
+            self.buildings = record.buildings
+        elif isinstance(record, MissionStarted):
+            building = parse_building(record.building_text)
+            self.missions.append(Walk(building, building.start))
+        elif self.missions:
+            self.missions[-1].note(record)
+
+
+def telling(name: str, names: Sequence[str]) -> str:
+    """The shortest beginning of `name` that none of the other names holds."""
+    others = [other.casefold() for other in names if other != name]
+    beginnings = (name[:length] for length in range(1, len(name) + 1))
+    return next(
+        typed for typed in beginnings if not any(typed.casefold() in other for other in others)
+    )
+
+
+class TerminalParticipant:
+    """One who has logged in at `terminal`. Each method begins on the screen it is about, waits
+    for it, and ends when the next is up; any raises TimeoutError, with the screen."""
+
+    def __init__(self, terminal: Terminal, study: Study, identity: Identity) -> None:
+        self.terminal = terminal
+        self.study = study
+        self.identity = identity
+        self.journal = LiveJournal(study.home(identity) / JOURNAL)
+        self.pressed: list[Action] = []
+        """The keys of the mission under way, or of the last."""
+        self._entered = len(self.journal.missions)
+
+    # --- before the rounds ----------------------------------------------------------------------
+
+    def preflight(self) -> None:
+        """Show that the keys work."""
+        words = self.study.texts.words
+        self._face(words.preflight.title)
+        self._press(self._shows(words.keys_fine), "up", "down", "left", "right", "space")
+        self._press(self._shows(self.study.texts.consent.title), "enter")
+
+    def consent(self) -> None:
+        """Agree to take part."""
+        texts = self.study.texts
+        self._choose(texts.consent.title, 1, self._shows(texts.practice.title))
+
+    def practise(self) -> None:
+        """Read the lessons, and find and treat whom each leg leads to."""
+        texts = self.study.texts
+        walking = texts.lessons.walking.title
+        planned = legs(self.study.practice, session_seed(self.study, self.identity))
+        titles = [texts.lessons.of(leg.level).title for leg in planned]
+        self._turn_page(texts.practice.title, self._shows(walking))
+        self._turn_page(walking, self._shows(titles[0]))
+        for leg, title in zip(planned, titles, strict=True):
+            if leg.opens_kind:
+                self._turn_page(title, self._begun)
+            self._enter_mission()
+            self.walk()
+        self._wait(self._shows(texts.check.title))
+
+    def answer_check(self, answers: Sequence[int]) -> None:
+        """Give `answers`, from 1, to the questions that end practice."""
+        texts, checks = self.study.texts, self.study.items.check
+        titles = [texts.check.title] * (len(checks) - 1) + [texts.memorise.title]
+        for check, answer, following in zip(checks, answers, titles, strict=True):
+            told = texts.check_right if answer == check.right else texts.check_wrong
+            self._wait(self._shows(check.text))
+            self._choose(texts.check.title, answer, self._shows(told.title))
+            self._turn_page(told.title, self._shows(following))
+
+    # --- a round --------------------------------------------------------------------------------
+
+    def memorise(self) -> None:
+        """Look at the map until it disappears by itself."""
+        texts = self.study.texts
+        self._turn_page(texts.memorise.title, self._shows(f" {texts.words.left}"))
+        self._wait(self._shows(texts.label.title))
+
+    def label(self, round_: int, *, right: int, wrong: int) -> dict[str, str]:
+        """Give their own names to as many rooms as are to be `right`, then the name of another
+        to the `wrong` ones, and finish; the names given, by the rooms' true names."""
+        texts, given = self.study.texts, dict[str, str]()
+        building = self.study.building(self.journal.buildings[round_ - 1])
+        self._turn_page(texts.label.title, self._shows(f" {texts.words.left}"))
+        self._face(f"1 / {len(building.rooms)}", LabelScreen.DEAF_S)
+        for number in range(1, right + wrong + 1):
+            room = self._next_room(building, given)
+            free = (other.name for other in building.rooms if other.name not in given.values())
+            name = next(other for other in free if (other == room.name) is (number <= right))
+            given[room.name] = name
+            typed = telling(name, [other.name for other in building.rooms])
+            self._press(self._shows(f"✓ {number}"), typed, "enter")
+        self._press(self._shows(texts.words.finish_title), "a", "backspace", "up", "enter")
+        self._press(self._shows(texts.mission.title), "y")
+        return given
+
+    def begin_mission(self) -> None:
+        """Read what the mission is about, and begin it."""
+        self._turn_page(self.study.texts.mission.title, self._begun)
+        self._enter_mission()
+
+    def walk(self, enough: Callable[[Walk], bool] = lambda _: False) -> None:
+        """Rescue one victim after the other, until that is `enough` or the mission is over."""
+        walk, self.pressed = self.journal.missions[-1], []
+
+        def stop() -> bool:
+            return walk.over or enough(walk)
+
+        while not stop():
+            goal = walk.nearest
+            while walk.position != goal.cell and not stop():
+                self._act(walk, towards(walk.building.plan, walk.position, goal.cell))
+            if not stop():
+                self._act(walk, Action.TRIAGE)
+                self._wait(self._rescued(walk, goal))
+
+    def slide(self, values: Mapping[str, int]) -> None:
+        """Move each slider to its value, by item."""
+        texts = self.study.texts
+        self._face(texts.mental_state.title, SlidersScreen.DEAF_S)
+        items = {slider.text: slider.id for slider in self.study.items.slider}
+        self._answer({text: (str(values[it]), f" {values[it]} ") for text, it in items.items()})
+        self._press(self._shows(texts.likert.title), "enter")
+
+    def rate(self, values: Mapping[str, int]) -> None:
+        """Agree with each statement as far as its value says, by item."""
+        items, scale = self.study.items.statement, self.study.items.scale.answers
+        self._face(self.study.texts.likert.title, LikertScreen.DEAF_S)
+        points = {it.text: values[it.id] for it in items}
+        self._answer({text: (str(n), f"● {scale[n - 1]} ") for text, n in points.items()})
+        self._press(self._shows(self.study.texts.likert.title, no=True), "enter")
+
+    # --- after the rounds -----------------------------------------------------------------------
+
+    def prefer(self, round_: int) -> None:
+        """Prefer the instructor of a round."""
+        texts = self.study.texts
+        self._choose(texts.preference.title, round_, self._shows(texts.reason.title))
+
+    def explain(self, words: str) -> None:
+        """Say why, in one line."""
+        texts = self.study.texts
+        self._face(texts.reason.title, ReasonScreen.DEAF_S)
+        self._press(self._shows(texts.debrief.title), words, "enter")
+
+    def leave(self) -> str:
+        """Read the debriefing and close it; the completion code on it."""
+        self._face(self.study.texts.debrief.title, PageScreen.DEAF_S)
+        code = re.search(rf"(?m)^\s*([{CODE_LETTERS}]{{{CODE_LENGTH}}})$", self.terminal.text())
+        assert code is not None, self.terminal.text()
+        self.terminal.press("enter")
+        assert self.terminal.wait(PATIENCE_S) == 0
+        return code[1]
+
+    # --- pages ----------------------------------------------------------------------------------
+
+    def _turn_page(self, title: str, following: Callable[[], bool]) -> None:
+        self._face(title, PageScreen.DEAF_S)
+        self._press(following, "enter")
+
+    def _choose(self, title: str, number: int, following: Callable[[], bool]) -> None:
+        self._face(title, ChoiceScreen.DEAF_S)
+        self._press(following, str(number), "enter")
+
+    def _answer(self, answers: Mapping[str, tuple[str, str]]) -> None:
+        """Press the keys of each question, in the order of the page, and see its sign below it."""
+        self._wait(lambda: len(self._lines_below(answers)) == len(answers))
+        keys = [
+            key for question in self._lines_below(answers) for key in (answers[question][0], "down")
+        ]
+        self._press(
+            lambda: all(answers[it][1] in line for it, line in self._lines_below(answers).items()),
+            *keys[:-1],
+        )
+
+    def _lines_below(self, questions: Iterable[str]) -> dict[str, str]:
+        """The line below each question, by question, from top to bottom."""
+        lines = self.terminal.text().split("\n")
+        return {
+            question: f"{below} "
+            for line, below in pairwise(lines)
+            for question in questions
+            if question in line
+        }
+
+    def _next_room(self, building: Building, given: Mapping[str, str]) -> Room:
+        """The room asked about, once it is none of those that were given a name."""
+
+        def ready() -> bool:
+            room = self._asked_room(building)
+            return room is not None and room.name not in given
+
+        self._wait(ready)
+        room = self._asked_room(building)
+        assert room is not None
+        return room
+
+    def _asked_room(self, building: Building) -> Room | None:
+        """The room with the question mark, by its place on the map, whose characters show two
+        cells each, one above the other. None until all of that is painted."""
+        rows = [line for line in self.terminal.text().split("\n") if WALL.search(line)]
+        if len(rows) < building.plan.height / 2:
+            return None
+        left = min(line.index(wall[0]) for line in rows if (wall := WALL.search(line)))
+        for row, line in enumerate(rows):
+            if "?" in line:
+                return building.room_at((line.index("?") - left, 2 * row))
+        return None
+
+    # --- missions -------------------------------------------------------------------------------
+
+    def _begun(self) -> bool:
+        return len(self.journal.missions) > self._entered
+
+    def _enter_mission(self) -> None:
+        """Wait until a new mission is on the screen, with its instruction whole."""
+        self._wait(self._begun)
+        self._entered += 1
+        self._wait(self._instructed)
+
+    def _instructed(self) -> bool:
+        instruction = self.journal.missions[-1].instruction
+        shown = self.terminal.text().replace("▌", " ")
+        return bool(instruction) and "".join(instruction.split()) in "".join(shown.split())
+
+    def _act(self, walk: Walk, action: Action) -> None:
+        """Press a key and wait until what it did is recorded."""
+        before = walk.actions
+        self.pressed.append(action)
+        self._press(lambda: walk.actions > before or walk.left, KEYS[action])
+
+    @staticmethod
+    def _rescued(walk: Walk, site: VictimSite) -> Callable[[], bool]:
+        return lambda: site.id in walk.rescued or walk.left
+
+    # --- patience -------------------------------------------------------------------------------
+
+    def _shows(self, text: str, *, no: bool = False) -> Callable[[], bool]:
+        return lambda: (text in self.terminal.text()) is not no
+
+    def _face(self, text: str, deaf_s: float = 0.0) -> None:
+        """Wait for a screen, and then for as long as its keys do nothing."""
+        self._wait(self._shows(text))
+        self.terminal.read_for(deaf_s)
+
+    def _press(self, ready: Callable[[], bool], *keys: str) -> None:
+        """Press the keys, once, and wait for what follows."""
+        self.terminal.press(*keys)
+        self._wait(ready, f" after {', '.join(keys)}")
+
+    def _wait(self, ready: Callable[[], bool], after: str = "") -> None:
+        """Read what is shown and recorded, until `ready`."""
+        until = monotonic() + PATIENCE_S
+        while not ready():
+            if monotonic() > until or not self.terminal.read_for(0.005):
+                raise TimeoutError(f"nothing more came{after}; the screen:\n{self.terminal.text()}")
+            self.journal.read_on()
