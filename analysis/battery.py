@@ -202,13 +202,15 @@ def analyse_source(
     *,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
+    loaded: Callable[[], object] = lambda: None,
 ) -> BatteryResult:
     """Read a source as `load_study` does, run the battery, and write the figures if a folder is
-    given.
+    given. `loaded` is called once the source was read, before anything comes of it.
 
     Raises SourceError or JournalError where the source cannot be read.
     """
     study = load_study(source, quiz, mode, check=check, tick=tick)
+    loaded()
     result = run_battery(study, load_rules())
     if figures is not None:
         write_figures(result.study, figures)

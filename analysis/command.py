@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import click
 
 from analysis.battery import analyse_source
 from analysis.journals import MODES, StudyMode
+from analysis.sources import holds_live_sessions
 from game.errors import AnaError
+
+Unblind = Callable[[Path], str]
+"""Records in a study folder, unless the study is closed, that its allocation was looked at; returns
+what to tell of that."""
 
 _PATH = click.Path(path_type=Path)
 
 
 @click.command(name="analyse")
+@click.pass_obj
 @click.argument("source", type=_PATH)
 @click.option("--json", "out", required=True, type=_PATH, metavar="OUT.json", help="Where to.")
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
@@ -24,6 +31,7 @@ _PATH = click.Path(path_type=Path)
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
 def command(
+    unblind: Unblind,
     source: Path,
     out: Path,
     figures: Path | None,
@@ -34,9 +42,15 @@ def command(
     """Analyse SOURCE and write all numbers to OUT.json.
 
     SOURCE is a study folder, the tables of one, or one long CSV file. Exit status 2 where a
-    planned analysis could not be made; all others are written all the same.
+    planned analysis could not be made; all others are written all the same. The ledger of a live
+    study that is open records that it was analysed, which unblinds.
     """
-    result = analyse_source(source, quiz, figures, mode, check=check, tick=_tell)
+
+    def loaded() -> None:
+        if holds_live_sessions(source, mode):
+            click.echo(unblind(source), err=True, nl=False)
+
+    result = analyse_source(source, quiz, figures, mode, check=check, tick=_tell, loaded=loaded)
     try:
         out.write_text(result.to_json(), encoding="utf-8")
     except OSError as error:

@@ -47,7 +47,7 @@ def read_study_folder(
     With `check` every mission is played again from its actions and must come out as recorded.
     Raises SourceError or JournalError, naming the place and the mend.
     """
-    mode = mode or _only_mode(folder)
+    mode = mode_of(folder, mode)
     paths = journals(folder, mode)
     if not paths:
         raise SourceError(
@@ -73,8 +73,13 @@ def is_study_folder(folder: Path) -> bool:
     return (folder / SESSIONS).is_dir() or (folder / "study.toml").is_file()
 
 
+def mode_of(folder: Path, mode: StudyMode | None) -> StudyMode:
+    """The mode to read: the one asked for, else that of the live sessions, or of the simulated
+    ones where they are alone. Raises SourceError where that is not clear."""
+    return mode or _only_mode(folder)
+
+
 def _only_mode(folder: Path) -> StudyMode:
-    """The mode to read: the live sessions, or the simulated ones where they are alone."""
     found: list[StudyMode] = [mode for mode in MODES if journals(folder, mode)]
     real = [mode for mode in found if mode != "simulated"]
     if "simulated" in found and real:

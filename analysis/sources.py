@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from analysis.absent import SourceError
-from analysis.journals import StudyMode, Tick, is_study_folder, read_study_folder
+from analysis.journals import StudyMode, Tick, is_study_folder, mode_of, read_study_folder
 from analysis.longcsv import read_long_csv
 from analysis.recorded import Recorded
 from analysis.tables import Study
@@ -29,6 +29,12 @@ def load_study(
     if mode is not None:
         raise SourceError("--mode goes with a study folder; a CSV has a column 'simulated'")
     return read_long_csv(source, quiz)
+
+
+def holds_live_sessions(source: Path, mode: StudyMode | None = None) -> bool:
+    """Whether live sessions of a study folder are what is read of a source that can be read."""
+    study_folder = not is_tables_folder(source) and is_study_folder(source)
+    return study_folder and mode_of(source, mode) == "live"
 
 
 def load_recorded(

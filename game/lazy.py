@@ -7,6 +7,10 @@ from typing import cast
 
 import click
 
+from game.errors import AnaError
+
+OURS = ("analysis", "game")
+
 
 class LazyCommand(click.Command):
     """A name and a summary, known at once; the command itself is imported when it is run.
@@ -20,9 +24,20 @@ class LazyCommand(click.Command):
         self.target = target
 
     def load(self) -> click.Command:
-        """The command behind the name."""
+        """The command behind the name. Raises AnaError where a package it needs is missing."""
         module, _, attribute = self.target.partition(":")
-        return cast(click.Command, getattr(import_module(module), attribute))
+        try:
+            return cast(click.Command, getattr(import_module(module), attribute))
+        except ModuleNotFoundError as error:
+            missing = error.name or ""
+            if missing.partition(".")[0] in ("", *OURS):
+                raise
+            raise AnaError(
+                f"it needs the Python package {missing}, which is not installed",
+                place=f"ana {self.name}",
+                mend="In the folder of ana's source, install everything: `make test` does, or "
+                "`pip install --require-hashes --requirement requirements/all.txt`",
+            ) from error
 
 
 class LazyGroup(click.Group):

@@ -14,6 +14,7 @@ import pytest
 from game import __version__
 from game.cli import ana, main
 from game.errors import AnaError
+from game.lazy import LazyCommand
 
 Capture = pytest.CaptureFixture[str]
 
@@ -75,6 +76,24 @@ def test_a_users_error_is_told_on_the_error_stream(
     command_that(raising(AnaError("row 3 is short", place="a.txt, line 5", mend="Add 2 cells.")))
     assert main(["probe"]) == 2
     assert capsys.readouterr() == ("", "ana: a.txt, line 5: row 3 is short. Add 2 cells.\n")
+
+
+def test_a_command_of_a_tier_that_is_not_installed_says_how_to_install_it() -> None:
+    program = (
+        "import sys; sys.modules['numpy'] = None\n"
+        "from game.cli import main; sys.exit(main(['analyse', 'study', '--json', 'out.json']))"
+    )
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert run.stderr.startswith("ana: ana analyse: it needs the Python package numpy")
+    assert "make test" in run.stderr
+    assert "pip install --require-hashes --requirement requirements/all.txt" in run.stderr
+
+
+@pytest.mark.parametrize("target", ["game.nowhere:command", "analysis.nowhere:command"])
+def test_a_missing_module_of_our_own_is_a_defect(target: str) -> None:
+    with pytest.raises(ModuleNotFoundError):
+        LazyCommand("probe", target, "A probe.").load()
 
 
 def test_a_defect_is_not_dressed_up_as_a_users_error(

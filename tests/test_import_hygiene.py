@@ -14,6 +14,8 @@ HEAVY = ("matplotlib", "numpy", "pandas", "pingouin", "scipy", "statsmodels", "t
 ON_THE_WAY_TO_PLAY = ("game.cli", "game.commands.play", "game.screens.mission")
 LATER = ("game.rescuers", "game.study", "game.screens.result", "game.session.replay")
 """What a mission does not need for its first picture."""
+BEHIND_THE_OPENING = ("game.coach.coaches", "game.screens.mission", "game.session.journal")
+"""What the line that opens the game does not wait for."""
 LAZY = [command for command in ana.commands.values() if isinstance(command, LazyCommand)]
 
 
@@ -28,6 +30,12 @@ def test_the_way_to_play_imports_nothing_heavy() -> None:
     assert set(ON_THE_WAY_TO_PLAY) <= loaded
     assert not loaded.intersection(HEAVY)
     assert not loaded.intersection(LATER)
+
+
+def test_the_first_paint_waits_for_no_mission() -> None:
+    opening, mission = modules_after("game.commands.play"), modules_after(*ON_THE_WAY_TO_PLAY)
+    assert not opening.intersection(BEHIND_THE_OPENING)
+    assert not mission.isdisjoint(BEHIND_THE_OPENING)
 
 
 def test_the_frame_imports_no_room() -> None:

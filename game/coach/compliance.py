@@ -18,8 +18,8 @@ from game.world.settings import Controls
 MISSTEP_EXCESS = {Level.C1: 1, Level.C2: 3, Level.C3: 8}
 """By how many cells the cost-to-go must exceed its minimum since the instruction was issued."""
 
-HEEDED_CELLS = 5
-"""After so many cells the right way a correction has been understood."""
+HEEDED_CELLS = 3
+"""After so many cells the right way a notice has been understood."""
 
 READING_MS = 2_000
 """How long a rescuer may take to heed a correction. At C1 each cell too far is a misstep: without
@@ -74,7 +74,7 @@ class Compliance:
 
     @property
     def heeded(self) -> bool:
-        """Whether the rescuer clearly does what was asked: a correction may go."""
+        """Whether the rescuer clearly does what was asked: a notice may go."""
         return self.asked - self.distance >= HEEDED_CELLS
 
     def corrected(self, at_ms: int) -> Compliance:

@@ -10,7 +10,7 @@ from typing import Generic, Literal, TypeVar
 
 from game.coach.api import Briefing
 from game.coach.belief import Belief, belief_change
-from game.coach.compliance import NOTHING_ASKED, fits, reached, track
+from game.coach.compliance import NOTHING_ASKED, STRICT_LEVELS, fits, reached, track
 from game.coach.cycle import AdaptiveCycle, InfluenceProcess, LearningProcess
 from game.coach.instructions import Instruction, Pose, Scene, correction, instruct
 from game.coach.instructions.corrections import WRONG_WAY
@@ -43,19 +43,28 @@ from game.world.geometry import Cell
 from game.world.observation import Guidance, Observation
 from game.world.plan import Plan
 
+_IssueReason = Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"]
+_GoalReason = Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
+
 ALL_SAFE = "All victims are safe."
 NOBODY_IN_TIME = "No victim can be reached in time."
+TOO_LATE = "It is too late for that victim."
+ANOTHER_FIRST = "Another victim comes first now."
+_NOTICES: dict[_GoalReason, str] = {
+    "expired": TOO_LATE,
+    "too_late": TOO_LATE,
+    "strayed": ANOTHER_FIRST,
+}
+"""What is said of a goal that is given up before its victim was treated."""
 
 STRAY_GAIN_MOVES = 5
-"""After a misstep another goal is set only if it saves somebody more, or so many moves."""
+"""After a misstep another goal is set only if it saves somebody more, or so many moves. Whoever has
+strayed by less than half of that cannot gain as much, and the route is not planned anew."""
 
 State = TypeVar("State")
 Occasion = Literal["step", "instruction", "every"]
 """When a coach may evaluate and adapt: after a move; when an instruction has been completed or a
 misstep made; when its time has come."""
-
-_GoalReason = Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
-_IssueReason = Literal["goal", "completed", "level", "off_path", "misstep", "resumed"]
 
 
 @lru_cache(maxsize=8)
@@ -89,6 +98,7 @@ class Guide(ABC, Generic[State]):
         self._state = state
         self._guidance = Guidance("")
         self._route: tuple[str, ...] = ()
+        self._nearest = 0
         self._instruction: Instruction | None = None
         self._number = 0
         self._carried_out = False
@@ -181,8 +191,10 @@ class Guide(ABC, Generic[State]):
         if event.action is Action.TRIAGE:
             return records + self._follow_level(at_ms, pose)
         distance = self._floodfills.distance(pose.cell, self._waiting[instruction.goal].cell)
+        self._nearest = min(self._nearest, distance)
         self._compliance = self._compliance.acted(distance)
-        if self._compliance.heeded and self._guidance.notice:
+        heeded = self._compliance.heeded and bool(self._guidance.notice)
+        if heeded:
             self._guidance = Guidance(instruction.text)
             records.append(NoticeTakenDown(at_ms, self._number))
         if reached(instruction, pose):
@@ -192,6 +204,8 @@ class Guide(ABC, Generic[State]):
             return records + self._misstep(at_ms, pose, instruction)
         if self._misleads(instruction, pose, observation):
             return records + self._issue(at_ms, pose, "off_path")
+        if heeded and instruction.shown_level in STRICT_LEVELS:
+            return records + self._issue(at_ms, pose, "heeded")
         return records + self._follow_level(at_ms, pose)
 
     def _misleads(self, instruction: Instruction, pose: Pose, observation: Observation) -> bool:
@@ -284,11 +298,12 @@ class Guide(ABC, Generic[State]):
             self._guidance = Guidance("", notice)
             return [NothingLeft(at_ms, notice)]
         goal = self._route[0]
+        self._nearest = self._floodfills.distance(pose.cell, self._waiting[goal].cell)
         self._goal_set(goal, pose.cell)
         room = self._building.room_of(self._waiting[goal])
         name = room.name if room else None
         records: list[CoachRecord] = [GoalSet(at_ms, goal, name, self._route, reason)]
-        records += self._issue(at_ms, pose, "goal")
+        records += self._issue(at_ms, pose, "goal", _NOTICES.get(reason, ""))
         if goal == self._treated:
             self._meant = goal
             records += self._completed(at_ms)
@@ -307,7 +322,10 @@ class Guide(ABC, Generic[State]):
 
     def _better_route(self, at_ms: int, position: Cell) -> Sequence[str] | None:
         """A route to another goal that is clearly better than to go on to this one."""
-        pace = self.ms_per_move
+        distance = self._floodfills.distance(position, self._waiting[self._route[0]].cell)
+        if 2 * (distance - self._nearest) < STRAY_GAIN_MOVES:
+            return None
+        self._nearest, pace = distance, self.ms_per_move
         best = self._planner.plan(
             position, at_ms, self._waiting, ms_per_move=pace, before=self._route
         )

@@ -63,11 +63,13 @@ class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued", kw_only
     heading: Heading
     end: Cell
     treats: bool = False
-    reason: Literal["goal", "completed", "level", "off_path", "misstep", "resumed"] = "goal"
+    reason: Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"] = (
+        "goal"
+    )
 
 
 class NoticeTakenDown(CoachAct, frozen=True, tag="notice_taken_down"):
-    """The correction before instruction `number` was heeded, and has left the bar."""
+    """The notice before instruction `number` was heeded, and has left the bar."""
 
     number: int
 

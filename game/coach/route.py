@@ -22,8 +22,14 @@ WEIGHTS = {Severity.RED: 3, Severity.BLUE: 2}
 SPARE_MOVES = 5
 """Red victims are planned to be rescued so many moves before they expire."""
 
+PASSING_BY_MOVES = 2
+"""For the sake of so few moves in all nobody is led past the victim that is nearest."""
+
 SEARCH_ROUNDS = 40
 """How many times one start of the search is improved at most."""
+
+FEW = 4
+"""An order of so few, as near the end of a mission, is also tried with one of them left out."""
 
 _SEGMENT = 3
 
@@ -87,7 +93,8 @@ class RoutePlanner:
         allowed for beginning each treatment.
         """
         search = self._search(position, time_ms, waiting, ms_per_move)
-        return search.route(search.best(before, Random(f"route {self._seed}")), waiting)
+        best = search.best(before, Random(f"route {self._seed}"))
+        return search.route(search.nearest_first(best, PASSING_BY_MOVES * ms_per_move), waiting)
 
     def along(
         self, order: Sequence[str], position: Cell, time_ms: int, *, ms_per_move: int
@@ -182,7 +189,18 @@ class _Search:
         if not followed:
             random.shuffle(numbers)
         second = self._improved(self._inserted(followed, numbers))
-        return max(first, second, key=self.value)
+        return self._exchanged(max(first, second, key=self.value))
+
+    def nearest_first(self, order: _Order, spare_ms: int) -> _Order:
+        """`order` begun with the nearest of its victims, if that saves as many and takes no more
+        than `spare_ms` longer."""
+        if not order:
+            return order
+        nearest = min(order, key=self.travel[-1].__getitem__)
+        near_first = (nearest, *(i for i in order if i != nearest))
+        worth, end = self.value(order)
+        near_worth, near_end = self.value(near_first)
+        return near_first if near_worth == worth and near_end >= end - spare_ms else order
 
     def value(self, order: _Order) -> tuple[int, int]:
         """What a walk in this order is worth: the weight of those rescued in time, then how early
@@ -230,6 +248,15 @@ class _Search:
             if candidate_value[0] == all_in_time:
                 break
         return best
+
+    def _exchanged(self, order: _Order) -> _Order:
+        """`order`, or where one of its few victims leaves time for others who are worth more, an
+        order with those."""
+        if not 0 < len(order) < min(len(self.names), FEW + 1):
+            return order
+        others = [i for i in range(len(self.names)) if i not in order]
+        exchanged = (self._inserted(tuple(j for j in order if j != i), others) for i in order)
+        return max(order, *exchanged, key=self.value)
 
     def _improved(self, order: _Order) -> _Order:
         """What becomes of `order` in at most `SEARCH_ROUNDS` improvements."""

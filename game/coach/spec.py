@@ -1,4 +1,7 @@
-"""Which coach plays a mission, as a value that a journal keeps and a command line gives."""
+"""Which coach plays a mission, as a value that a journal keeps and a command line gives.
+
+The coaches themselves are imported when one is built: the game opens without waiting for them.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,6 @@ from typing import Literal, get_args
 import msgspec
 
 from game.coach.api import Briefing, Coach
-from game.coach.coaches import AdaptiveCoach, PaceCoach, StaticCoach
 from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
 from game.coach.records import Level
@@ -87,6 +89,8 @@ def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
 
     Raises AnaError where a coach of one's own cannot be loaded.
     """
+    from game.coach.coaches import AdaptiveCoach, PaceCoach, StaticCoach
+
     if spec.source is not None and spec.sha256 is not None:
         return own_coach(spec.source, spec.sha256, briefing)
     if spec.preset is not None:

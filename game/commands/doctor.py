@@ -106,8 +106,9 @@ def check_colours(env: Mapping[str, str]) -> Check:
         "colours",
         "warn",
         found,
-        "It can be played, but looks better with more: set TERM=xterm-256color, or "
-        "COLORTERM=truecolor if the terminal has it (ssh passes it on only by SendEnv).",
+        "It can be played, but looks better with more: put `term screen-256color` into .screenrc, "
+        "if this is GNU screen; else set TERM=xterm-256color, or COLORTERM=truecolor if the "
+        "terminal has it (ssh passes it on only by SendEnv).",
     )
 
 

@@ -6,7 +6,9 @@ import getpass
 import os
 import signal
 import sys
+import syslog
 import tomllib
+from functools import partial
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -19,9 +21,12 @@ from game.errors import AnaError
 if TYPE_CHECKING:
     from game.study.ledger import Mode
     from game.study.status import ExclusionRule
+    from game.study.texts import Login
 
 _FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 _MODES = ("live", "pilot", "simulated")
+_STATUS_TROUBLE = 2
+_UNBLINDED = "The study is open: the ledger records that it was unblinded."
 
 
 @click.command()
@@ -73,7 +78,23 @@ def export(folder: Path, out: Path, modes: tuple[str, ...]) -> None:
     for mode, sessions in done.sessions.items():
         click.echo(f"{out}: {mode} sessions {sessions}, rounds {done.rounds[mode]}")
     if done.unblinded:
-        click.echo("The study is open: the ledger records that it was unblinded.", err=True)
+        click.echo(_UNBLINDED, err=True)
+
+
+def unblind(folder: Path, why: str) -> str:
+    """Record that the allocation of the live participants was looked at, unless the study is
+    closed; what to tell of it. A ledger that cannot be written stops nobody who has a copy."""
+    from game.study.folder import LEDGER
+    from game.study.ledger import Ledger, LedgerError, is_closed
+
+    ledger = Ledger(folder / LEDGER)
+    try:
+        if is_closed(ledger.entries()):
+            return ""
+        ledger.unblind(why)
+    except LedgerError as error:
+        return f"This unblinds the study unless it is closed, and could not be recorded: {error}\n"
+    return f"{_UNBLINDED}\n"
 
 
 @click.command()
@@ -94,11 +115,18 @@ def drop(folder: Path, participant: str) -> None:
 @click.command()
 @_FOLDER
 def close(folder: Path) -> None:
-    """End recruiting in the study DIR: no more places are given out, nothing is concealed."""
+    """End recruiting in the study DIR: no more places are given out, nothing is concealed.
+
+    Who has a place may finish. All others read that no place is left: newcomers at login, and
+    whoever is in consent or practice now after practice.
+    """
     from game.study.folder import open_study
 
     open_study(folder).ledger.close()
-    click.echo(f"{folder}: closed; who is taking part may finish")
+    click.echo(
+        f"{folder}: closed. Who has a place may finish. All others read that no place is left: "
+        "newcomers at login, and whoever is in consent or practice now after practice"
+    )
 
 
 @click.command()
@@ -122,11 +150,11 @@ def sshd(folder: Path, account: str | None, port: int | None, keys: Path | None)
 @click.command()
 @_FOLDER
 @click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
-@click.pass_context
-def login(ctx: click.Context, folder: Path, *, pilot: bool) -> object:
+def login(folder: Path, *, pilot: bool) -> int:
     """Let whoever has logged in over SSH take part in the study DIR.
 
-    The ID is that of the key, or is asked for.
+    The ID is that of the key, or is asked for. What stands in the way is told in the study's words;
+    where it lies and how to mend it is for the system's log.
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise AnaError(
@@ -135,20 +163,36 @@ def login(ctx: click.Context, folder: Path, *, pilot: bool) -> object:
         )
     for number in (signal.SIGQUIT, signal.SIGTSTP):
         signal.signal(number, signal.SIG_IGN)
-    from game.commands.study import run
+    from game.study.folder import identify, open_study
     from game.study.sshd import who_logs_in
+    from game.study.texts import filled, shipped_texts
 
-    identity = who_logs_in(os.environ, _ask_for_id)
-    return ctx.invoke(run, folder=folder, participant=identity, pilot=pilot)
-
-
-def _ask_for_id(problem: str) -> str:
-    if problem:
-        click.echo(f"\n  {problem}")
+    texts = shipped_texts()
     try:
-        return input("\n  Your participant ID, and Enter: ")
+        study = open_study(folder)
+        texts = study.texts
+        participant = who_logs_in(os.environ, partial(_ask_for_id, texts.login))
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        from game.screens.study.app import run_session
+
+        return run_session(study, identify(participant, pilot=pilot))
+    except AnaError as error:
+        syslog.openlog("ana")
+        syslog.syslog(syslog.LOG_ERR, str(error))
+        page = filled(texts.words.trouble, problem=error.message)
+        click.echo(f"\n{page.title}\n\n{page.body.strip()}\n", err=True)
+        return _STATUS_TROUBLE
+
+
+def _ask_for_id(words: Login, refused: str) -> str:
+    if refused:
+        click.echo(f"\n  {words.wrong.replace('{id}', refused)}")
+    try:
+        return input(f"\n  {words.ask} ")
     except EOFError:
         raise click.Abort from None
+    except UnicodeDecodeError:
+        return "?"
 
 
 def _rules() -> tuple[ExclusionRule, ...]:

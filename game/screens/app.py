@@ -19,12 +19,8 @@ from textual.geometry import Size
 from textual.screen import Screen
 from textual.widgets import Static
 
-from game.coach.spec import CoachSpec, parse_coach
 from game.errors import AnaError
 from game.places import sessions_folder
-from game.screens.dialogs import LEAST_SIZE, Notice, TooSmall
-from game.screens.live import LiveMission
-from game.screens.mission import Failed, Finished, LiveScreen, MissionScreen
 from game.screens.preferences import (
     Preferences,
     load_preferences,
@@ -32,20 +28,20 @@ from game.screens.preferences import (
     save_preferences,
 )
 from game.screens.signals import lead_out
-from game.screens.terminal import this_terminal
 from game.screens.theme import THEMES, theme_name
-from game.session.journal import Journal
-from game.session.play import start_free_play
-from game.session.sink import FileSink
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import MissionSettings
 
 if TYPE_CHECKING:
+    from game.coach.spec import CoachSpec
     from game.screens.home import HomeScreen
+    from game.screens.live import LiveMission
+    from game.screens.mission import Failed, Finished, LiveScreen, MissionScreen
     from game.screens.replay import ReplayScreen
     from game.screens.result import ResultScreen
     from game.screens.watch import WatchScreen
+    from game.session.journal import Journal
     from game.session.replay import Replay
 
 
@@ -124,6 +120,8 @@ class AnaApp(App[None], inherit_bindings=False):
             self._mind_size(event.size)
 
     def _mind_size(self, size: Size) -> None:
+        from game.screens.dialogs import LEAST_SIZE, TooSmall
+
         columns, rows = LEAST_SIZE
         small = size.width < columns or size.height < rows
         shown = isinstance(self.screen, TooSmall)
@@ -184,6 +182,8 @@ class AnaApp(App[None], inherit_bindings=False):
         self.theme = theme_name(os.environ, self.preferences.ground)
 
     def _chosen(self) -> PlayOptions:
+        from game.coach.spec import parse_coach
+
         kind, _, level = self.preferences.coach.partition("-")
         seed = int.from_bytes(os.urandom(4))
         settings = self._options.settings if self._options else MissionSettings()
@@ -216,6 +216,11 @@ class AnaApp(App[None], inherit_bindings=False):
         self._replace(screen)
 
     def _mission(self, options: PlayOptions) -> MissionScreen:
+        from game.screens.live import LiveMission
+        from game.screens.mission import MissionScreen
+        from game.screens.terminal import this_terminal
+        from game.session.play import start_free_play
+
         run, journal = start_free_play(
             options.building,
             options.settings,
@@ -229,7 +234,10 @@ class AnaApp(App[None], inherit_bindings=False):
     def _watching(self, options: PlayOptions) -> WatchScreen:
         from game.rescuers.catalogue import character
         from game.screens.coachpanel import OverheardCoach
+        from game.screens.live import LiveMission
+        from game.screens.terminal import this_terminal
         from game.screens.watch import WatchScreen
+        from game.session.play import start_free_play
 
         building, who = options.building, character(options.rescuer)
         run, journal = start_free_play(
@@ -332,6 +340,8 @@ class AnaApp(App[None], inherit_bindings=False):
 
     def _say_or_fail(self, title: str, error: AnaError) -> None:
         """Tell of an error where the user can go on from; leave with it where nothing is shown."""
+        from game.screens.dialogs import Notice
+
         if len(self.screen_stack) > 1:
             self.push_screen(Notice(title, str(error), key="Back"))
         else:
@@ -340,6 +350,8 @@ class AnaApp(App[None], inherit_bindings=False):
 
 
 def _path(journal: Journal) -> Path:
+    from game.session.sink import FileSink
+
     assert isinstance(journal.sink, FileSink)
     return journal.sink.path
 

@@ -13,30 +13,33 @@ LINES = 3
 """Rows of the bar; a longer text makes it taller rather than being cut."""
 FLASH_S = 0.6
 """How long a new instruction stands out."""
-_EDGE = "\x1f"
-"""Stands for the blank at both ends of the notice while lines are broken."""
 
 
 def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[Row]:
     """Notice and instruction, wrapped into at least `LINES` rows of `columns`.
 
-    A notice without an instruction, as at the end, is the text.
+    The notice has rows of its own above the text, which stands where it would without one. A
+    notice without an instruction, as at the end, is the text.
     """
     style = "fresh" if fresh else "text"
     if not guidance.text:
         guidance = Guidance(guidance.notice)
-    badge = f"{_EDGE}{guidance.notice}{_EDGE} " if guidance.notice else ""
-    rows: list[Row] = []
-    edges = badge.count(_EDGE)
-    for line in wrap(badge + guidance.text, max(1, columns - 4)):
-        noticing, edges = edges > 0, edges - line.count(_EDGE)
-        end = len(line) if edges else line.rfind(_EDGE) + 1 if noticing else 0
-        noticed = line[:end].replace(_EDGE, " ")
-        rows.append(tuple(run for run in ((noticed, "notice"), (line[end:], style)) if run[0]))
-    missing = max(0, LINES - len(rows))
-    rows = [()] * (missing // 2) + rows + [()] * (missing - missing // 2)
+    wide = max(1, columns - 4)
+    rows: list[Row] = [((line, style),) for line in wrap(guidance.text, wide)]
+    above = max(0, LINES - len(rows) + 1) // 2
+    if guidance.notice:
+        notice: list[Row] = [((f" {line} ", "notice"),) for line in wrap(guidance.notice, wide - 2)]
+        rows = [()] * (above - len(notice)) + notice + rows
+    else:
+        rows = [()] * above + rows
+    rows += [()] * (LINES - len(rows))
     edge = "▌ " if fresh else "  "
     return [((edge, style), *row, (" " * columns, style)) for row in rows]
+
+
+def announces(guidance: Guidance, before: Guidance) -> bool:
+    """Whether something is said that was not said before, rather than only taken back."""
+    return guidance.notice not in ("", before.notice) or guidance.text not in ("", before.text)
 
 
 class InstructionBar(Canvas):
@@ -56,12 +59,15 @@ class InstructionBar(Canvas):
     def show(self, guidance: Guidance | None) -> None:
         """Put `guidance` on the bar."""
         guidance = guidance or Guidance("")
-        if guidance != self._guidance:
-            self._guidance = guidance
-            self._fresh_until = monotonic() + FLASH_S
-            self._draw()
-        elif self._fresh_until and monotonic() >= self._fresh_until:
+        settles = self._fresh_until > 0 and monotonic() >= self._fresh_until
+        if settles:
             self._fresh_until = 0.0
+        if guidance != self._guidance:
+            if announces(guidance, self._guidance):
+                self._fresh_until = monotonic() + FLASH_S
+            self._guidance = guidance
+            self._draw()
+        elif settles:
             self._draw()
 
     def _draw(self) -> None:

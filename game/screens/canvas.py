@@ -110,6 +110,7 @@ class Canvas(Widget):
     ) -> None:
         super().__init__(id=id, classes=classes)
         self._rows: list[Row] = list(rows)
+        self._strips: dict[int, Strip] = {}
         self._inks: dict[str, Style] = {}
         self._papers: dict[str, Style] = {}
 
@@ -127,6 +128,7 @@ class Canvas(Widget):
         """Show `rows`, painting only the lines that differ from what is shown."""
         before, self._rows = self._rows, list(rows)
         if len(before) != len(self._rows):
+            self._strips.clear()
             self.refresh(layout=True)
             return
         columns = self.size.width
@@ -135,6 +137,7 @@ class Canvas(Widget):
             if old is not new and old != new:
                 start, end = difference(old, new, columns)
                 changed.append(Region(start, y, end - start, 1))
+                self._strips.pop(y, None)
         if changed:
             self.refresh(*changed)
 
@@ -147,20 +150,28 @@ class Canvas(Widget):
     def notify_style_update(self) -> None:
         super().notify_style_update()
         assert not self.styles.gutter, f"{self} cannot have a border or padding"
+        self._strips.clear()
         self._inks.clear()
         self._papers.clear()
 
     def render_lines(self, crop: Region) -> list[Strip]:
-        return [self._strip(y, crop.x, crop.right) for y in crop.line_range]
+        columns = self.size.width
+        strips = [self._strip(y, columns) for y in crop.line_range]
+        if crop.column_span == (0, columns):
+            return strips
+        return [strip.crop(crop.x, crop.right) for strip in strips]
 
-    def _strip(self, y: int, start: int, end: int) -> Strip:
-        """Columns `start` to `end` (exclusive) of a line, as they are sent."""
-        row = sliced(self._rows[y], start, end) if y < len(self._rows) else BLANK
-        segments = [
-            Segment(text, self._paper(style) if text.isspace() else self._ink(style))
-            for text, style in padded(row, end - start)
-        ]
-        return Strip(segments, end - start)
+    def _strip(self, y: int, columns: int) -> Strip:
+        """A whole line as it is sent, made once as long as it stays the same."""
+        strip = self._strips.get(y)
+        if strip is None or strip.cell_length != columns:
+            row = self._rows[y] if y < len(self._rows) else BLANK
+            segments = [
+                Segment(text, self._paper(style) if text.isspace() else self._ink(style))
+                for text, style in padded(row, columns)
+            ]
+            strip = self._strips[y] = Strip(segments, columns)
+        return strip
 
     def _ink(self, name: str) -> Style:
         """How a style is sent to the terminal."""

@@ -26,13 +26,14 @@ LISTED = 5
 class OverheardCoach:
     """A coach whose records are kept as `thoughts`, for a panel beside a live mission."""
 
-    def __init__(self, coach: Coach) -> None:
+    def __init__(self, coach: Coach, spec: CoachSpec) -> None:
         self._coach = coach
+        self.spec = spec
         self.thoughts = Thoughts()
 
     @classmethod
     def build(cls, spec: CoachSpec, briefing: Briefing) -> OverheardCoach:
-        return cls(build_coach(spec, briefing))
+        return cls(build_coach(spec, briefing), spec)
 
     @property
     def guidance(self) -> Guidance:
@@ -70,8 +71,14 @@ def posterior_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
     return pins
 
 
-def coach_rows(thoughts: Thoughts, building: Building, columns: int) -> list[Row]:
-    """The panel, `columns` wide: two blocks side by side where there is room."""
+def coach_rows(
+    thoughts: Thoughts, building: Building, columns: int, *, infers: bool = True
+) -> list[Row]:
+    """The panel, `columns` wide: two blocks side by side where there is room. `infers` is whether
+    the coach asks where the rescuer is walking to."""
+    if not infers:
+        level, goal = _level(thoughts, building)
+        return [level, goal, (("this coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
     left = [*_level(thoughts, building), *_comprehension(thoughts), *_belief(thoughts)]
     if columns < 48:
         return [*left, BLANK, *_listed(thoughts, building, columns)]
@@ -172,15 +179,17 @@ class CoachPanel(Canvas):
         "blue", *(f"likely-{step}" for step in range(len(LIKELY))),
     }  # fmt: skip
 
-    def __init__(self, building: Building) -> None:
+    def __init__(self, building: Building, spec: CoachSpec) -> None:
         super().__init__(id="coach")
         self._building = building
+        self._infers = spec.kind not in ("static", "pace")
         self._thoughts = Thoughts()
 
     def show(self, thoughts: Thoughts) -> None:
         """Draw these thoughts."""
         self._thoughts = thoughts
-        self.draw(coach_rows(thoughts, self._building, self.size.width))
+        columns = self.size.width
+        self.draw(coach_rows(thoughts, self._building, columns, infers=self._infers))
 
     def on_resize(self) -> None:
         self.show(self._thoughts)

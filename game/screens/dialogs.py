@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import ClassVar
 
 from textual import events
@@ -46,7 +47,7 @@ class Notice(ModalScreen[None]):
     """Says something until a key closes it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("enter,escape,space,q,p", "close", id="notice.close"),
+        Binding("enter,escape,space,q", "close", id="notice.close"),
         Binding("ctrl+q,ctrl+c", "close", id="notice.close.ctrl"),
     ]
 
@@ -62,6 +63,45 @@ class Notice(ModalScreen[None]):
 
     def action_close(self) -> None:
         self.dismiss()
+
+
+def leave_question() -> Question:
+    """What is asked before a mission is left."""
+    text = "What you have done so far stays in the journal."
+    return Question("Leave the mission?", text, yes="Leave", no="Go on")
+
+
+class Pause(ModalScreen[bool]):
+    """Stands over a mission while its clock stands still; its answer is whether to leave it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter,escape,space,p,P", "go_on", id="pause.go_on"),
+        Binding("question_mark,f1", "help", id="pause.help"),
+        Binding("q,Q,ctrl+q,ctrl+c", "leave", id="pause.leave"),
+    ]
+
+    def __init__(self, help_window: Callable[[], Help]) -> None:
+        super().__init__()
+        self._help = help_window
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog"):
+            yield Static("Paused", classes="title", markup=False)
+            yield Static("The clock stands still.", markup=False)
+            yield KeyLine(("P", "Go on"), ("?", "Help"), ("Q", "Leave"))
+
+    def action_go_on(self) -> None:
+        self.dismiss(False)
+
+    def action_help(self) -> None:
+        self.app.push_screen(self._help())
+
+    def action_leave(self) -> None:
+        self.app.push_screen(leave_question(), self._answered)
+
+    def _answered(self, leave: bool | None) -> None:
+        if leave:
+            self.dismiss(True)
 
 
 class Help(ModalScreen[None]):

@@ -148,9 +148,9 @@ class HomeScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         with Vertical(id="home-ground"):
             yield self._page
-        yield Canvas([((
-            " ↑ ↓ choose · ← → change · Enter begin · T dark or light · Q quit", ""
-        ),)], id="hint")  # fmt: skip
+        turn = "" if self.app.native_ansi_color else " · T dark or light"
+        hint = f" ↑ ↓ choose · ← → change · Enter begin{turn} · Q quit"
+        yield Canvas([((hint, ""),)], id="hint")
 
     def on_mount(self) -> None:
         self._show()

@@ -10,7 +10,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.screen import Screen
 
-from game.screens.canvas import BLANK, Canvas, Row, Run
+from game.screens.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
 from game.screens.keyline import KeyLine
 from game.world.geometry import Heading
@@ -42,23 +42,26 @@ _LEVELS = (
     ("C2", "what you pass:", "Enter the third door on your left."),
     ("C3", "by name:", "Go to the Records Room. Triage the red victim."),
 )
+_TREAT = "Utilize medical equipment."
+_FEW_WORDS = frozenset({Kind.RESCUED, Kind.EXPIRED, Kind.WALL, Kind.FLOOR})
+"""Signs whose meaning is said so shortly that they stand beside the others,"""
+_BESIDE = 49
+"""from this column on."""
 
 
 def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
-    """The page, drawn with the very glyphs of the mission."""
+    """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
+    long = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
+    short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
     others = [("P", "pause")] if pausing else []
     others += [("?", "this help"), ("Q", "leave")]
     return [
-        _heading("Your task"),
-        _line("Rescue as many victims as you can in four minutes."),
-        _line("The yellow bar on top guides you to the next one."),
-        BLANK,
-        _heading("Keys"),
+        _heading("Rescue as many victims as you can. The yellow bar guides you."),
         *walking_rows(turning=turning),
-        *_keys(others),
+        tuple(run for row in _keys(others) for run in row),
         BLANK,
         _heading("What you see"),
-        *sign_rows(glyphs),
+        *beside(long, short, _BESIDE),
         _line("A room's name shows while you see the middle of the room."),
         BLANK,
         _heading("What the coach says"),
@@ -74,7 +77,11 @@ def walking_rows(*, turning: bool) -> list[Row]:
 
 def sign_rows(glyphs: GlyphSet) -> list[Row]:
     """What each sign of the office means."""
-    return [((_MARGIN, ""), glyphs[kind], (f"  {meaning}", "")) for kind, meaning in _LEGEND]
+    return [_sign(glyphs, kind, meaning) for kind, meaning in _LEGEND]
+
+
+def _sign(glyphs: GlyphSet, kind: Kind, meaning: str) -> Row:
+    return ((_MARGIN, ""), glyphs[kind], (f"  {meaning}", ""))
 
 
 def _keys(keys: Iterable[tuple[str, str]]) -> list[Row]:
@@ -93,6 +100,8 @@ def _levels() -> Iterable[Row]:
     for level, how, example in _LEVELS:
         runs: list[Run] = [(_MARGIN, ""), (level, "title"), (f" {how:<15}", "quiet")]
         yield (*runs, (f" {example} ", "example"))
+    words = (f" {_TREAT} ", "example")
+    yield ((f"{_MARGIN:20}", ""), words, (" means: press ", ""), (" Space ", "key"))
 
 
 class HowTo(Canvas):

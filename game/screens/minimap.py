@@ -1,7 +1,8 @@
 """Small maps of a whole building: half-blocks where there is room, quarter-blocks where there is
 not: both are in every terminal's font.
 
-Both draw the walls, leave the doors open and show explored places brighter. Pins stand on top.
+Both draw the walls, leave the doors open and show explored places brighter. Where colours are few
+or none, doors have a sign. Pins stand on top.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ PIN_STYLES = frozenset(
 
 NO_TINTS: Mapping[Cell, str] = MappingProxyType({})
 
+DOOR_SIGN = "+"
+_DOORS = ("known-door", "map-door")
 _OPEN = ("floor", "door")
 _WALLS = ("trail", "known-wall", "map-wall")
 _GROUNDS = ("known-door", "map-door", "known-floor", "map-floor")
@@ -88,7 +91,7 @@ class HalfBlocks:
         if not lower.endswith(_OPEN):
             return "▄", f"{lower}/{upper}"
         door, floor = (upper, lower) if upper.endswith("door") else (lower, upper)
-        return "+" if door.endswith("door") else " ", f"{door}/{floor}"
+        return DOOR_SIGN if door in _DOORS else " ", f"{door}/{floor}"
 
 
 class QuarterBlocks:
@@ -114,15 +117,24 @@ def map_size(plan: Plan, scale: Scale) -> tuple[int, int]:
 
 
 class SmallMap:
-    """The rows of one building at one scale, some cells in `tints`.
+    """The rows of one building at one scale, some cells in `tints`; with `signs` every character
+    with a door in it shows nothing but the door.
 
     A row is put together anew only when it changes, and a character worked out only once for what
     is explored of it: a step of the rescuer costs some microseconds.
     """
 
-    def __init__(self, plan: Plan, scale: Scale, tints: Mapping[Cell, str] = NO_TINTS) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        scale: Scale,
+        tints: Mapping[Cell, str] = NO_TINTS,
+        *,
+        signs: bool = False,
+    ) -> None:
         self.plan = plan
         self.scale = scale
+        self.signs = signs
         self._tints = tints
         self._rows: dict[int, tuple[object, Row]] = {}
         self._characters: dict[tuple[int, int, int], Run] = {}
@@ -170,9 +182,17 @@ class SmallMap:
         run = self._characters.get(key)
         if run is None:
             ground = Ground(self.plan, explored, self._tints)
-            run = self.scale.character(ground, column * self.scale.across, top)
-            self._characters[key] = run
+            left = column * self.scale.across
+            sign = self._sign(ground, left, top) if self.signs else None
+            run = self._characters[key] = sign or self.scale.character(ground, left, top)
         return run
+
+    def _sign(self, ground: Ground, left: int, top: int) -> Run | None:
+        """What stands for a door among the cells of a character."""
+        right, below = left + self.scale.across, top + self.scale.down
+        shades = {ground.shade((x, y)) for x in range(left, right) for y in range(top, below)}
+        door = next((shade for shade in _DOORS if shade in shades), None)
+        return (DOOR_SIGN, f"{door}/{door}") if door else None
 
 
 class MiniMap(Canvas):
@@ -200,8 +220,9 @@ class MiniMap(Canvas):
         wide, high = map_size(plan, HALF_BLOCKS)
         scale = HALF_BLOCKS if wide <= columns and high <= height else QUARTER_BLOCKS
         small = self._map
-        if small is None or small.plan is not plan or small.scale is not scale:
-            small = self._map = SmallMap(plan, scale)
+        signs = self.app.native_ansi_color
+        if small is None or (small.plan, small.scale, small.signs) != (plan, scale, signs):
+            small = self._map = SmallMap(plan, scale, signs=signs)
         rows = small.rows(explored, pins)
         size = map_size(plan, scale)
         place = position[0] // scale.across, position[1] // scale.down

@@ -17,7 +17,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 
 from game.errors import AnaError
-from game.screens.dialogs import Help, Notice, Question
+from game.screens.dialogs import Help, Notice, Pause, leave_question
 from game.screens.live import LiveMission
 from game.screens.missionview import MissionView
 from game.screens.status import next_change_ms
@@ -199,19 +199,17 @@ class LiveScreen(Screen[None]):
         return self.live.settings.allow_pause if action == "pause" else True
 
     def action_pause(self) -> None:
-        self.app.push_screen(Notice("Paused", "The clock stands still.", key="Go on"))
+        self.app.push_screen(Pause(self._help), self._left)
 
     def action_help(self) -> None:
+        self.app.push_screen(self._help())
+
+    def _help(self) -> Help:
         settings = self.live.settings
-        self.app.push_screen(
-            Help(turning=settings.controls == "turn", pausing=settings.allow_pause)
-        )
+        return Help(turning=settings.controls == "turn", pausing=settings.allow_pause)
 
     def action_leave(self) -> None:
-        text = "What you have done so far stays in the journal."
-        self.app.push_screen(
-            Question("Leave the mission?", text, yes="Leave", no="Go on"), self._left
-        )
+        self.app.push_screen(leave_question(), self._left)
 
     def _left(self, leave: bool | None) -> None:
         if leave and not self._over:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from textual import events
 from textual.app import ComposeResult
 from textual.containers import Container
 from textual.widget import Widget
@@ -18,8 +17,9 @@ MIDDLE_COLUMNS = 110
 """From here on the whole building fits the mini-map in quarter-blocks."""
 WIDE_COLUMNS = 180
 """From here on it fits in half-blocks."""
-CROWDED_ROWS = 28
-"""Below this there is no room for the numbers beside other widgets."""
+CROWDED_ROWS = 44
+"""Below this another widget leaves the numbers but one row, so that there is room for the whole of
+a building 52 cells high on the mini-map, or for more of it."""
 
 
 class MissionView(Container):
@@ -30,14 +30,17 @@ class MissionView(Container):
 
     def __init__(self, settings: MissionSettings, extra: Widget | None = None) -> None:
         super().__init__()
-        self._extra = [] if extra is None else [extra]
+        self._extra = extra
         self.bar = InstructionBar()
         self.office = OfficeView()
         self.status = StatusPanel(settings)
         self.minimap = MiniMap()
 
     def compose(self) -> ComposeResult:
-        yield from (self.bar, self.office, self.status, *self._extra, self.minimap)
+        yield from (self.bar, self.office, self.status)
+        if self._extra is not None:
+            yield self._extra
+        yield self.minimap
 
     def show(self, observation: Observation, pins: Pins | None = None) -> None:
         """Draw what the rescuer sees now, with `pins` on the mini-map."""
@@ -50,10 +53,14 @@ class MissionView(Container):
     def panel_columns(self) -> int:
         return self.status.size.width
 
-    def on_resize(self, event: events.Resize) -> None:
-        columns, rows = event.size
-        extra = bool(self._extra)
+    def divide(self) -> None:
+        """Divide the space anew, as when the extra widget has come or gone."""
+        columns, rows = self.size
+        extra = self._extra is not None and self._extra.display
         self.set_class(extra, "extra")
         self.set_class((columns >= MIDDLE_COLUMNS or extra) and columns < WIDE_COLUMNS, "middle")
         self.set_class(columns >= WIDE_COLUMNS, "wide")
         self.set_class(extra and rows < CROWDED_ROWS, "crowded")
+
+    def on_resize(self) -> None:
+        self.divide()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from typing import NamedTuple
 
 from game.screens.camera import Camera
@@ -50,9 +51,11 @@ def kinds(observation: Observation) -> bytes:
 
 
 def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
-    """The names in view, by row: each on lit floor nearest its label cell, covering nobody.
+    """The names in view, by row, on lit floor beside their label cells, covering nobody.
 
-    A name that fits nowhere beside its label cell, in one line or two, is cut.
+    A name stands about its label cell, in two lines or one, where all of that is free, so that it
+    mostly keeps its place while the rescuer walks. Else it moves aside, or is cut if it fits
+    nowhere.
     """
     placed: dict[int, Label] = {}
     for room in observation.rooms:
@@ -65,7 +68,7 @@ def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
             if start - 1 <= x <= end
         }
         ways = [
-            (top, lines)
+            {row: _nearest(text, x, free[row]) for row, text in enumerate(lines, start=top)}
             for lines in _wrappings(room.name)
             for top in sorted(free, key=lambda row: abs(row - y))
             if all(
@@ -75,12 +78,10 @@ def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
         ]
         if not ways and free:
             widest = max(free, key=lambda row: (_columns(free[row]), -abs(row - y)))
-            ways = [(widest, [_cut(room.name, _columns(free[widest]))])]
-        for top, lines in ways[:1]:
-            for row, text in enumerate(lines, start=top):
-                start, end = free[row]
-                ideal = 2 * x + 1 - len(text) // 2
-                placed[row] = Label(max(2 * start, min(ideal, 2 * end - len(text))), text)
+            cut = _cut(room.name, _columns(free[widest]))
+            ways = [{widest: _nearest(cut, x, free[widest])}]
+        at_home = (way for way in ways if all(_is_about(x, label) for label in way.values()))
+        placed |= next(at_home, ways[0] if ways else {})
     return placed
 
 
@@ -135,12 +136,29 @@ def _lay_over(runs: list[Run], label: Label, left: int) -> list[Run]:
     return [run for run in over if run[0]]
 
 
-def _wrappings(name: str) -> Iterator[list[str]]:
-    """A name on one line, then broken in two between words."""
-    yield [name]
+@cache
+def _wrappings(name: str) -> list[list[str]]:
+    """A name in one line or broken in two between words, the narrowest way first: it has most
+    room to stay where it is."""
     words = name.split()
-    for cut in range(1, len(words)):
-        yield [" ".join(words[:cut]), " ".join(words[cut:])]
+    cuts = range(1, len(words))
+    broken = ([" ".join(words[:cut]), " ".join(words[cut:])] for cut in cuts)
+    return sorted([[name], *broken], key=lambda lines: max(map(len, lines)))
+
+
+def _about(x: int, text: str) -> int:
+    """The column at which a text is in the middle of cell column `x`."""
+    return 2 * x + 1 - len(text) // 2
+
+
+def _is_about(x: int, label: Label) -> bool:
+    return label.column == _about(x, label.text)
+
+
+def _nearest(text: str, x: int, stretch: tuple[int, int]) -> Label:
+    """A text in a stretch of cells, as near as it goes to the middle of cell column `x`."""
+    start, end = stretch
+    return Label(max(2 * start, min(_about(x, text), 2 * end - len(text))), text)
 
 
 def _columns(stretch: tuple[int, int]) -> int:

@@ -30,7 +30,8 @@ JUMP_MS = 5_000
 FRAME_S = 0.1
 """While playing, the screen follows ten times a second: a replay has no keys to answer."""
 
-_MARKS = {Rescued: ("✓", "rescued"), Expired: ("✗", "expired"), LevelChanged: ("◆", "level")}
+_MARKS = {LevelChanged: ("◆", "level"), Rescued: ("✓", "rescued"), Expired: ("✗", "expired")}
+"""What stands on the time line; of two in one column the later here."""
 
 
 def mission_title(replay: Replay) -> str:
@@ -58,7 +59,8 @@ def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) ->
 
     here = column(replay.time_ms)
     line = [("━", "done") if at <= here else ("─", "faint") for at in range(wide)]
-    for record in replay.highlights:
+    kinds: list[type] = list(_MARKS)
+    for record in sorted(replay.highlights, key=lambda record: kinds.index(type(record))):
         line[column(record.at_ms)] = _MARKS[type(record)]
     line[here] = line[here][0] if line[here][0] not in "━─" else "●", "moment"
     state = "▶ playing" if playing else "■ stopped"
@@ -123,9 +125,10 @@ class ReplayScreen(Screen[None]):
     def __init__(self, replay: Replay) -> None:
         super().__init__()
         self.replay = replay
-        self._panel = CoachPanel(replay.building)
+        self._panel = CoachPanel(replay.building, replay.started.coach)
         self._view = MissionView(replay.started.settings, self._panel)
         self._timeline = Timeline()
+        self._keys = KeyLine(id="keys")
         recorded = missions(replay.transcript)
         self._number, self._count = recorded.index(replay.recorded), len(recorded)
         self._playing: Timer | None = None
@@ -136,11 +139,7 @@ class ReplayScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         yield self._view
         yield self._timeline
-        several = (("[ ]", f"{self._number + 1}/{self._count}"),) * (self._count > 1)
-        yield KeyLine(
-            ("Space", "play"), ("← →", "5 s"), ("N B", "events"), ("↑ ↓", "speed"), *several,
-            ("Q", "leave"), id="keys",
-        )  # fmt: skip
+        yield self._keys
 
     def on_mount(self) -> None:
         self.action_play()
@@ -153,17 +152,22 @@ class ReplayScreen(Screen[None]):
             self.action_play()
 
     def _show(self) -> None:
-        replay = self.replay
+        replay, playing = self.replay, self._playing is not None
         self._view.show(replay.observation(), posterior_pins(replay.thoughts, replay.building))
         self._panel.show(replay.thoughts)
         self._timeline.draw(
             timeline_rows(
                 replay,
                 self.size.width,
-                playing=self._playing is not None,
+                playing=playing,
                 speed=SPEEDS[self._speed],
             )
         )
+        several = (("[ ]", f"{self._number + 1}/{self._count}"),) * (self._count > 1)
+        self._keys.set_keys(
+            ("Space", "stop" if playing else "play"), ("← →", "5 s"), ("N B", "events"),
+            ("↑ ↓", "speed"), *several, ("Q", "leave"),
+        )  # fmt: skip
 
     def _go(self, to_ms: float) -> None:
         try:

@@ -14,23 +14,12 @@ from textual.screen import Screen
 
 from game.screens.canvas import BLANK, Canvas, Row, beside, width
 from game.screens.charts import area_chart, step_chart
-from game.screens.glyphs import HEADING_ARROWS
 from game.screens.keyline import KeyLine
-from game.screens.minimap import (
-    HALF_BLOCKS,
-    PIN_STYLES,
-    QUARTER_BLOCKS,
-    STYLES,
-    Pin,
-    SmallMap,
-    map_size,
-)
+from game.screens.minimap import PIN_STYLES, STYLES
+from game.screens.pathmap import legend_row, path_map, victim_pin
 from game.screens.status import clock_text
 from game.screens.story import Fate, Story
-from game.world.building import Severity, VictimSite
-from game.world.geometry import Cell
-from game.world.labels import HALF_BLOCKS as LABEL_SCALE
-from game.world.labels import label_lines
+from game.world.building import Severity
 from game.world.observation import VictimState
 
 DEAF_S = 0.8
@@ -48,39 +37,6 @@ _BELOW_ROWS = 2
 """What stands under the page: where the journal is, and the keys."""
 _WAITING = VictimState.WAITING
 _NAMES = {1: "C1", 2: "C2", 3: "C3"}
-
-
-def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
-    """How a victim stands on a small map."""
-    if state is VictimState.RESCUED:
-        return "✓", "rescued"
-    if state is VictimState.EXPIRED:
-        return "✗", "expired"
-    return ("●", "red") if victim.severity is Severity.RED else ("○", "blue")
-
-
-def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
-    """The building with the way walked and what became of the victims; with room names where
-    there is room for half-blocks. `filled` draws the way as an area, else as dots."""
-    building, plan = story.building, story.building.plan
-    scale = HALF_BLOCKS if map_size(plan, HALF_BLOCKS)[0] <= columns else QUARTER_BLOCKS
-    pins: dict[Cell, Pin] = {}
-    if scale is HALF_BLOCKS:
-        taken = {victim.cell for victim in building.victims}
-        for room in building.rooms:
-            free = tuple(cell for cell in room.cells if cell not in taken)
-            for line in label_lines(room.name, free, LABEL_SCALE) if free else ():
-                for column, letter in enumerate(line.text, start=line.column):
-                    pins[column, 2 * line.row] = letter, "name"
-    tints: dict[Cell, str] = {}
-    if filled and scale is HALF_BLOCKS:
-        tints = dict.fromkeys(story.path, "trail")
-    else:
-        pins = dict.fromkeys(story.path, ("•", "trail")) | pins
-    for victim in building.victims:
-        pins[victim.cell] = victim_pin(victim, story.fates[victim.id].state)
-    pins[building.start] = HEADING_ARROWS[building.start_heading], "here/here"
-    return SmallMap(plan, scale, tints).rows((1 << len(plan.tiles)) - 1, pins)
 
 
 def rescue_chart(story: Story, columns: int, rows: int) -> list[Row]:
@@ -107,6 +63,15 @@ def level_chart(story: Story, columns: int, rows: int) -> list[Row]:
         columns=columns,
         rows=rows,
     )
+
+
+def constant_level(story: Story) -> Row | None:
+    """The level of the coach's words where it never changed, in words."""
+    levels = {step.value for step in story.levels}
+    if len(levels) > 1:
+        return None
+    said = f"stayed at {_NAMES[levels.pop()]}" if levels else "said nothing"
+    return ((f"The coach {said}.", "quiet"),)
 
 
 def total_rows(story: Story) -> list[Row]:
@@ -140,12 +105,15 @@ def fate_rows(story: Story, columns: int) -> list[Row]:
     down = -(-len(fates) // across)
     rows: list[Row] = []
     for first in range(0, len(fates), down):
-        lines = [_fate_row(story, fate) for fate in fates[first : first + down]]
+        lines = [
+            _fate_row(story, fate, min(columns, _FATE_COLUMNS))
+            for fate in fates[first : first + down]
+        ]
         rows = beside(rows, lines, first // down * _FATE_COLUMNS) if rows else lines
     return rows
 
 
-def _fate_row(story: Story, fate: Fate) -> Row:
+def _fate_row(story: Story, fate: Fate, columns: int) -> Row:
     site, reached = fate.victim, fate.state is VictimState.RESCUED
     room = story.building.room_of(site)
     name = room.name if room is not None else "hallway"
@@ -154,28 +122,45 @@ def _fate_row(story: Story, fate: Fate) -> Row:
     return (
         (mark if fate.at_ms is not None else " ", f"{ink}/dark"),
         (" ", ""), (victim, f"{colour}/dark"),
-        (f" {at:>4}  ", "quiet"), (name[: _FATE_COLUMNS - 11], "strong" if reached else "quiet"),
+        (f" {at:>4}  ", "quiet"), (name[: columns - 11], "strong" if reached else "quiet"),
     )  # fmt: skip
 
 
 def result_rows(story: Story, columns: int, rows: int, *, filled: bool) -> list[Row]:
     """The whole page, `columns` wide; what matters most is within the first `rows`."""
-    area = path_map(story, columns=columns, filled=filled)
+    area = [*path_map(story, columns=columns, filled=filled), legend_row(story)]
     area_columns = max(map(width, area)) + 2
     head = [BLANK, *total_rows(story), BLANK]
-    if columns - area_columns >= NARROWEST_CHART:
-        wide = columns - area_columns
-        lines = rows - len(head) - 2 * _FRAME_ROWS - 1
-        low = next((low for below, low in _LEVEL_ROWS if lines < below), 9)
-        high = max(3, min(HIGHEST_CHART, lines - low))
-        charts = [*rescue_chart(story, wide, high), BLANK, *level_chart(story, wide, low)]
-        left = [*area, BLANK, *fate_rows(story, area_columns - 2)]
-        return head + beside(left, charts, area_columns)
+    constant = constant_level(story)
+    wide = columns - area_columns
+    if wide >= NARROWEST_CHART:
+        right = _beside_the_map(story, wide, rows - len(head), constant)
+        left = area if constant else [*area, BLANK, *fate_rows(story, area_columns - 2)]
+        return head + beside(left, right, area_columns)
+    if constant is not None:
+        across = max(1, (columns - NARROWEST_CHART - 1) // _FATE_COLUMNS)
+        wide = columns - across * _FATE_COLUMNS
+        chart = [*rescue_chart(story, wide - 2, _LOW_CHART), BLANK, constant]
+        lower = beside(chart, fate_rows(story, columns - wide), wide)
+        return [*head[1:], *area, *lower]
     half = columns // 2
     charts = beside(
         rescue_chart(story, half - 2, _LOW_CHART), level_chart(story, half - 1, _LOW_CHART), half
     )
     return [*head[1:], *area, *charts, BLANK, *fate_rows(story, columns)]
+
+
+def _beside_the_map(story: Story, wide: int, rows: int, constant: Row | None) -> list[Row]:
+    """Both charts, one below the other, over `rows`; where the level is `constant`, the rescues
+    one by one in place of its chart."""
+    if constant is not None:
+        listed = [BLANK, constant, BLANK, *fate_rows(story, wide)]
+        high = max(_LOW_CHART, min(HIGHEST_CHART, rows - _FRAME_ROWS - len(listed)))
+        return [*rescue_chart(story, wide, high), *listed]
+    lines = rows - 2 * _FRAME_ROWS - 1
+    low = next((low for below, low in _LEVEL_ROWS if lines < below), 9)
+    high = max(3, min(HIGHEST_CHART, lines - low))
+    return [*rescue_chart(story, wide, high), BLANK, *level_chart(story, wide, low)]
 
 
 class ResultPage(Canvas):

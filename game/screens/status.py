@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from game.screens.canvas import Canvas, Row
+from game.screens.canvas import BLANK, Canvas, Row
 from game.screens.glyphs import HEADING_GLYPHS, HEADING_NAMES, SOLID, victim_kind
 from game.screens.office import in_reach
 from game.world.building import Severity
@@ -21,13 +21,15 @@ def clock_text(left_ms: int) -> str:
     return f"{minutes}:{seconds:02}"
 
 
-def status_rows(observation: Observation, settings: MissionSettings, columns: int) -> list[Row]:
-    """The panel's lines, `columns` wide."""
+def status_rows(
+    observation: Observation, settings: MissionSettings, columns: int, *, timed: bool = True
+) -> list[Row]:
+    """The panel's lines, `columns` wide; those of the clock are blank where time is no matter."""
     return [
-        _clock(observation, columns),
-        _time_bar(observation, settings, columns),
+        _clock(observation, columns) if timed else BLANK,
+        _time_bar(observation, settings, columns) if timed else BLANK,
         _counts(observation),
-        _reds(observation, settings),
+        _reds(observation, settings) if timed else BLANK,
         (
             (HEADING_GLYPHS[observation.heading], "player"),
             (f" facing {HEADING_NAMES[observation.heading]}", "quiet"),
@@ -85,7 +87,19 @@ def _doing(observation: Observation, columns: int) -> Row:
         )
     if in_reach(observation) is not None:
         return (" Space ", "key"), (" treats", "strong")
+    if _nearly_in_reach(observation):
+        return (("stand beside to treat", "quiet"),)
     return ()
+
+
+def _nearly_in_reach(observation: Observation) -> bool:
+    """Whether a waiting victim in view is two steps away, as one at a corner is."""
+    x, y = observation.position
+    return any(
+        victim.state is VictimState.WAITING
+        and abs(victim.cell[0] - x) + abs(victim.cell[1] - y) <= 2
+        for victim in observation.victims
+    )
 
 
 def next_change_ms(observation: Observation, columns: int) -> int:
@@ -111,13 +125,14 @@ class StatusPanel(Canvas):
 
     def __init__(self, settings: MissionSettings) -> None:
         super().__init__(id="status")
+        self.timed = True
         self._settings = settings
         self._observation: Observation | None = None
 
     def show(self, observation: Observation) -> None:
         """Draw the numbers of now."""
         self._observation = observation
-        rows = status_rows(observation, self._settings, self.size.width)
+        rows = status_rows(observation, self._settings, self.size.width, timed=self.timed)
         if self.size.height == 1:
             rows = [(*rows[0], ("   ", "quiet"), *rows[2])]
         self.draw(rows)

@@ -28,8 +28,8 @@ class Fate(NamedTuple):
 class Story:
     """A mission as a whole. `path` are the cells walked, the start first; `levels` are 1 to 3.
 
-    `actions` counts what the rescuer did, blocked moves and turns included; `left` is true where
-    the player went before the end.
+    `actions` counts what the rescuer did, blocked moves and turns included; `instructions` how
+    often the words on the bar changed; `left` is true where the player went before the end.
     """
 
     building: Building
@@ -73,10 +73,13 @@ def tell(replay: Replay) -> Story:
     building = replay.building
     fates = {victim.id: Fate(victim, VictimState.WAITING, None) for victim in building.victims}
     path, rescues, levels = [building.start], [Step(0, 0)], list[Step]()
-    kinds = {Acted: 0, InstructionIssued: 0, Misstep: 0, Disobeyed: 0}
+    kinds = {Acted: 0, Misstep: 0, Disobeyed: 0}
+    told = list[str]()
     for record in replay.records:
         if type(record) in kinds:
             kinds[type(record)] += 1
+        if isinstance(record, InstructionIssued) and record.text not in told[-1:]:
+            told.append(record.text)
         match record:
             case Acted(outcome=Outcome.MOVED):
                 path.append(record.position)
@@ -103,7 +106,7 @@ def tell(replay: Replay) -> Story:
         fates=fates,
         rescues=tuple(rescues),
         levels=tuple(levels),
-        instructions=kinds[InstructionIssued],
+        instructions=len(told),
         missteps=kinds[Misstep],
         disobeyed=kinds[Disobeyed],
     )

@@ -29,6 +29,7 @@ _STYLES = {
     "cut off": "trouble",
     "finished": "done",
     "declined": "quiet",
+    "turned away": "quiet",
 }
 
 

@@ -19,6 +19,8 @@ from game.world.events import Action
 from game.world.observation import Observation
 
 SPEEDS = (1, 2, 4, 8)
+SUMMARY_COLUMNS = 110
+"""From here on there is room for who plays beside the keys."""
 
 
 class WatchScreen(LiveScreen):
@@ -40,7 +42,7 @@ class WatchScreen(LiveScreen):
         coach: OverheardCoach,
         who: Character,
     ) -> None:
-        self._panel = CoachPanel(live.run.mission.building)
+        self._panel = CoachPanel(live.run.mission.building, coach.spec)
         super().__init__(live, journal)
         self._rescuer = rescuer
         self._who = who
@@ -60,8 +62,9 @@ class WatchScreen(LiveScreen):
         pins = posterior_pins(thoughts, self.live.run.mission.building)
         self.view.show(observation, pins if self._panel.display else None)
         self._panel.show(thoughts)
+        who = f"{self._who.summary}, " if self.size.width >= SUMMARY_COLUMNS else ""
         self._keys.set_keys(
-            ("SIMULATED", f"{self._who.summary}, {self.live.pace.speed}x"),
+            ("SIMULATED", f"{who}{self.live.pace.speed}x"),
             ("P", "pause"),
             ("↑ ↓", "speed"),
             ("C", "coach"),
@@ -94,4 +97,5 @@ class WatchScreen(LiveScreen):
 
     def action_coach(self) -> None:
         self._panel.display = not self._panel.display
+        self.view.divide()
         self.refresh_view()

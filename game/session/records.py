@@ -20,7 +20,7 @@ from game.world.settings import MissionSettings
 SCHEMA_VERSION = 1
 """Changes with any change to what a line holds; `game.session.upgrade` then reads the older."""
 
-RULES_VERSION = 1
+RULES_VERSION = 2
 """Changes whenever the same timed actions may give another mission or another instruction."""
 
 Phase = Literal[
@@ -170,7 +170,7 @@ class Interruption(SessionRecord, frozen=True, tag="interruption"):
 
 
 class SessionEnded(SessionRecord, frozen=True, tag="session_ended"):
-    reason: Literal["finished", "quit", "declined", "withdrawn", "interrupted"]
+    reason: Literal["finished", "quit", "declined", "withdrawn", "interrupted", "turned_away"]
 
 
 # --- the study ----------------------------------------------------------------------------------

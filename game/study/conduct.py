@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from typing import Literal, Protocol
 
 from game.coach.spec import CoachSpec
@@ -25,12 +26,13 @@ from game.session.records import (
     QuizSubmitted,
 )
 from game.study.chance import shuffled
+from game.study.ledger import NoPlace
 from game.study.practice import Leg, leg_building, leg_settings, leg_start, legs
 from game.study.protocol import ROUNDS, Point, Step, next_point
 from game.study.session import StudySession
 from game.study.settings import ScreenSize
 from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
-from game.study.texts import LIKERT_POINTS, Consent, Page, filled
+from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
 from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
 
@@ -96,12 +98,9 @@ async def conduct(session: StudySession, participant: Participant) -> Literal["o
     kept; what was recorded until then is.
     """
     try:
-        while (point := next_point(session.progress, session.study.settings)).step is not None:
-            await _settle(session, point)
-            await _PHASES[point.step.phase](session, participant, point.step, point.exposure_ms)
-        if not session.progress.over:
-            await session.finish("finished")
-        await participant.read(_closing_page(session))
+        closing = await _to_the_end(session, participant)
+        with suppress(Stopped):
+            await participant.read(closing)
     except Stopped:
         session.stop()
         return "stopped"
@@ -110,18 +109,30 @@ async def conduct(session: StudySession, participant: Participant) -> Literal["o
     return "over"
 
 
+async def _to_the_end(session: StudySession, who: Participant) -> Page:
+    """Lead the session on until it is over, or there is no place for it; the page to close with."""
+    texts = session.study.texts
+    try:
+        if not session.progress.over:
+            await session.see_place()
+        while (point := next_point(session.progress, session.study.settings)).step is not None:
+            await _settle(session, point)
+            await _PHASES[point.step.phase](session, who, point.step, point.exposure_ms)
+    except NoPlace:
+        await session.turn_away()
+        return texts.no_place
+    if session.progress.declined:
+        return texts.declined
+    if not session.progress.over:
+        await session.finish("finished")
+    return filled(texts.debrief, code=session.completion_code)
+
+
 async def _settle(session: StudySession, point: Point) -> None:
     for step, ending in point.settle:
         exposure_ms = session.progress.exposure_ms if step == session.progress.begun else 0
         session.enter(step)
         await session.save(PhaseEnded(ending, exposure_ms))
-
-
-def _closing_page(session: StudySession) -> Page:
-    texts = session.study.texts
-    if session.progress.declined:
-        return texts.declined
-    return filled(texts.debrief, code=session.completion_code)
 
 
 async def _start(session: StudySession, step: Step, left_ms: int | None, seen_ms: int = 0) -> None:
@@ -251,6 +262,8 @@ async def _sliders(session: StudySession, who: Participant, step: Step, _seen_ms
         for slider in shuffled(items.slider, lambda it: it.id, session.seed, "sliders", step.round)
     )
     page = filled(texts.mental_state, instructor=texts.instructors.of(step.round))
+    if session.progress.endings.get(Step("mission", step.round)) == "interrupted":
+        page = preceded(page, texts.cut_off.mission)
     await who.slide(page, Sheet(session, asked))
     await session.save(PhaseEnded("completed", 0))
 

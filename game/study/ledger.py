@@ -24,11 +24,18 @@ from game.study.design import BLOCK, DesignCell, design_cell
 Mode = Literal["live", "pilot", "simulated"]
 """Each mode has an allocation sequence of its own."""
 
-Ending = Literal["finished", "declined", "withdrawn", "dropped"]
+Ending = Literal["finished", "declined", "withdrawn", "dropped", "turned_away"]
 
 
 class LedgerError(AnaError):
     """The ledger cannot be read or written, or does not allow what was asked."""
+
+
+class NoPlace(LedgerError):
+    """There is no place for this participant: the study is closed or full, or the place is gone.
+
+    Its words are an experimenter's; participants read `Texts.no_place`.
+    """
 
 
 class Entry(msgspec.Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -131,26 +138,15 @@ class Ledger:
         """The participant's slot: the one held already, or the next free one of the mode.
 
         With `refill`, the slots of those who dropped out or withdrew are given out again first.
-        Raises LedgerError when every live slot is taken, or the study is closed.
+        Raises NoPlace when every live slot is taken, or the study is closed.
         """
         with self._locked() as write:
             entries = self.entries()
             held = slot_of(entries, participant, mode)
             if held is not None:
                 return held
-            created = self._created(entries)
-            if mode == "live" and is_closed(entries):
-                raise LedgerError(
-                    "the study is closed", place=str(self.path), mend="Create another study"
-                )
-            slot, refilled = _next_slot(entries, mode, refill)
-            if mode == "live" and slot >= created.blocks * BLOCK:
-                raise LedgerError(
-                    f"all {created.blocks * BLOCK} places of the study are taken",
-                    place=str(self.path),
-                    mend="Close the study, or create one with more blocks",
-                )
-            cell = design_cell(created.seed, mode, slot)
+            slot, refilled = self._free_slot(entries, mode, refill)
+            cell = design_cell(self._created(entries).seed, mode, slot)
             taken = SlotTaken(
                 utc=self._now(),
                 participant=participant,
@@ -161,6 +157,12 @@ class Ledger:
             )
             write(taken)
             return taken
+
+    def see_place(self, participant: str, mode: Mode, *, refill: bool = False) -> None:
+        """Raise NoPlace where `allocate` would. Nothing is written."""
+        entries = self.entries()
+        if slot_of(entries, participant, mode) is None:
+            self._free_slot(entries, mode, refill)
 
     def end_session(self, participant: str, mode: Mode, ending: Ending) -> None:
         """Record how a session ended; the same ending twice is written once."""
@@ -173,7 +175,7 @@ class Ledger:
     def come_back(self, participant: str, mode: Mode) -> None:
         """Let a drop-out take part again; of anybody else nothing is recorded.
 
-        From then on the slot is not given out again. Raises LedgerError where it has been.
+        From then on the slot is not given out again. Raises NoPlace where it has been.
         """
         with self._locked() as write:
             entries = self.entries()
@@ -181,10 +183,9 @@ class Ledger:
                 return
             slot = slot_of(entries, participant, mode)
             if slot is not None and _holders(entries, mode)[slot.slot] != participant:
-                raise LedgerError(
+                raise NoPlace(
                     f"the place of {participant} has gone to somebody else in the meantime",
                     place=str(self.path.parent),
-                    mend="Nothing more is to be done; thank you for having taken part",
                 )
             write(CameBack(utc=self._now(), participant=participant, mode=mode))
 
@@ -223,6 +224,22 @@ class Ledger:
         with self._locked() as write:
             if not is_closed(self.entries()):
                 write(StudyClosed(utc=self._now()))
+
+    def _free_slot(
+        self, entries: Sequence[LedgerEntry], mode: Mode, refill: bool
+    ) -> tuple[int, bool]:
+        """The next slot of a mode, and whether it was somebody's before. Raises NoPlace."""
+        places = self._created(entries).blocks * BLOCK
+        if mode == "live" and is_closed(entries):
+            raise NoPlace("the study is closed", place=str(self.path), mend="Create another study")
+        slot, refilled = _next_slot(entries, mode, refill)
+        if mode == "live" and slot >= places:
+            raise NoPlace(
+                f"all {places} places of the study are taken",
+                place=str(self.path),
+                mend="Close the study, or create one with more blocks",
+            )
+        return slot, refilled
 
     def _created(self, entries: Sequence[LedgerEntry]) -> StudyCreated:
         if entries and isinstance(entries[0], StudyCreated):

@@ -19,7 +19,9 @@ from game.study.folder import StudyError
 LOCK = "lock"
 PATIENCE_S = 3.0
 """How long the other process may take to end itself."""
-_POLL_S = 0.05
+GLANCE_S = 0.1
+"""How long `is_held` may keep a lock from somebody, at the very most."""
+_POLL_S = 0.02
 
 
 class SessionBusy(StudyError):
@@ -48,12 +50,10 @@ class SessionLock:
             raise StudyError(
                 f"the session cannot be opened ({error.strerror})", place=str(home)
             ) from error
-        try:
-            fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+        if not _locks(self._descriptor, GLANCE_S):
             pid = _holder(self._descriptor)
             os.close(self._descriptor)
-            raise SessionBusy(self.path, pid, _silent_ms(home)) from None
+            raise SessionBusy(self.path, pid, _silent_ms(home))
         os.ftruncate(self._descriptor, 0)
         os.pwrite(self._descriptor, f"{os.getpid()}\n".encode(), 0)
 
@@ -61,6 +61,22 @@ class SessionLock:
         if self._descriptor >= 0:
             os.close(self._descriptor)
             self._descriptor = -1
+
+
+def is_held(home: Path) -> bool:
+    """Whether a process has the session in `home` open. Writes nothing and does not wait.
+
+    The kernel's lock decides: the number in the file outlives its process, and in a copy of the
+    study it may be that of a process which has the original open.
+    """
+    try:
+        with (home / LOCK).open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False
+    return False
 
 
 def take_over(home: Path) -> SessionLock:
@@ -76,18 +92,23 @@ def take_over(home: Path) -> SessionLock:
                 raise
             with suppress(ProcessLookupError, PermissionError):
                 os.kill(busy.pid, number)
-        _wait_until_free(home)
+        with (home / LOCK).open("rb") as file:
+            _locks(file.fileno(), PATIENCE_S)
     return SessionLock(home)
 
 
-def _wait_until_free(home: Path) -> None:
-    until = time.monotonic() + PATIENCE_S
-    with (home / LOCK).open("rb") as file:
-        while time.monotonic() < until:
-            with suppress(BlockingIOError):
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                return
+def _locks(descriptor: int, within_s: float) -> bool:
+    """Lock the file for this process alone; whether that could be done in time."""
+    until = time.monotonic() + within_s
+    while True:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > until:
+                return False
             time.sleep(_POLL_S)
+        else:
+            return True
 
 
 def _holder(descriptor: int) -> int | None:

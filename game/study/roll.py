@@ -1,11 +1,10 @@
 """The roll of a study: who is where, read from the folder while sessions write to it.
 
-Nothing here writes, locks or waits. Of a journal only what was added since the last look is read.
+Nothing here writes or waits. Of a journal only what was added since the last look is read.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -30,12 +29,13 @@ from game.session.records import (
     Withdrawn,
 )
 from game.study.folder import MODES, Identity
-from game.study.lock import LOCK
+from game.study.lock import is_held
 from game.study.protocol import Progress, Step
 from game.study.settings import StudySettings
 
-State = Literal["taking part", "left", "cut off", "finished", "declined"]
-"""`left` went on purpose and may come back, `cut off` did not: its process is gone."""
+State = Literal["taking part", "left", "cut off", "finished", "declined", "turned away"]
+"""`left` went on purpose and may come back, `cut off` did not: its process is gone. `turned away`
+found no place, because the study was closed or full."""
 
 SILENCE_S = 10.0
 """A timed phase writes every second; one silent for longer hangs."""
@@ -94,7 +94,7 @@ class SessionWatch:
     step: Step = field(default_factory=lambda: Step("session"))
     interruptions: int = 0
     resumed: int = 0
-    left: bool = False
+    ended: SessionEnded | None = None
     limit_ms: int | None = None
     last_utc: str = ""
     offset: int = 0
@@ -156,7 +156,7 @@ class SessionWatch:
         self.last_utc = envelope.utc
         if envelope.phase != "session":
             self.step = Step(envelope.phase, envelope.round)
-        self.left = isinstance(record, SessionEnded)
+        self.ended = record if isinstance(record, SessionEnded) else None
         match record:
             case PhaseStarted(left_ms=left_ms):
                 self.limit_ms = left_ms
@@ -177,25 +177,11 @@ class SessionWatch:
             return "declined"
         if self.progress.over:
             return "finished"
-        if self._alive():
+        if is_held(self.home):
             return "taking part"
-        return "left" if self.left else "cut off"
-
-    def _alive(self) -> bool:
-        """Whether the process that the session's lock names still runs."""
-        try:
-            named = (self.home / LOCK).read_text(encoding="ascii").strip()
-        except (OSError, UnicodeDecodeError):
-            return False
-        if not named.isdigit():
-            return False
-        try:
-            os.kill(int(named), 0)
-        except ProcessLookupError:
-            return False
-        except PermissionError:
-            pass
-        return True
+        if self.ended is None:
+            return "cut off"
+        return "turned away" if self.ended.reason == "turned_away" else "left"
 
     def _silent_s(self, now: datetime) -> float | None:
         if not self.last_utc:

@@ -40,6 +40,10 @@ CODE_LETTERS = "ABCDEFGHJKMNPQRTUVWXYZ2346789"
 CODE_LENGTH = 8
 
 
+class HasWithdrawn(StudyError):
+    """The participant has withdrawn; participants read `Texts.withdrawn`."""
+
+
 class StudySession:
     """A session under way. Whatever writes raises JournalError when the journal cannot be kept."""
 
@@ -123,7 +127,7 @@ class StudySession:
         await self.finish("declined")
 
     async def allocate(self) -> None:
-        """Take a slot, or the one taken before. Raises LedgerError when none is left."""
+        """Take a slot, or the one taken before. Raises NoPlace when none is left."""
         study, (mode, participant) = self.study, self.identity
 
         def take() -> Allocated:
@@ -143,7 +147,16 @@ class StudySession:
 
         await self.save(await asyncio.to_thread(take))
 
-    async def finish(self, ending: Literal["finished", "declined"]) -> None:
+    async def see_place(self) -> None:
+        """See that the participant has a place, or can have one. Raises NoPlace."""
+        await asyncio.to_thread(see_place, self.study, self.identity)
+
+    async def turn_away(self) -> None:
+        """There is no place for the participant; of one who has not agreed nothing is kept."""
+        if self._kept:
+            await self.finish("turned_away")
+
+    async def finish(self, ending: Literal["finished", "declined", "turned_away"]) -> None:
         """The session is over: say so in the journal and in the ledger."""
         self.enter(Step("session"))
         await self.save(SessionEnded(ending))
@@ -172,8 +185,7 @@ def open_session(
     tells that it was taken from a process that had written nothing for so long. A simulated
     session gives its `clock` and `MemorySink`.
     Raises JournalError for a journal that cannot be written or read, LedgerError for a study that
-    was changed or a drop-out's place that somebody else has, StudyError for a participant who has
-    withdrawn.
+    was changed, NoPlace for a drop-out whose place somebody else has, HasWithdrawn.
     """
     clock = clock or SystemClock()
     path = study.home(identity) / JOURNAL
@@ -200,6 +212,12 @@ def open_session(
     return session
 
 
+def see_place(study: Study, identity: Identity) -> None:
+    """See that a participant has a place, or can have one. Raises NoPlace; writes nothing."""
+    mode, participant = identity
+    study.ledger.see_place(participant, mode, refill=study.settings.refill_dropouts)
+
+
 def _admit(study: Study, identity: Identity) -> None:
     """See that the ledger lets this participant take part, and let a drop-out come back."""
     participant, mode = identity.participant, identity.mode
@@ -208,7 +226,7 @@ def _admit(study: Study, identity: Identity) -> None:
     if ending == "dropped":
         study.ledger.come_back(participant, mode)
     if ending == "withdrawn":
-        raise StudyError(
+        raise HasWithdrawn(
             f"{participant} has withdrawn from the study",
             place=str(study.folder),
             mend="Take part under another ID",

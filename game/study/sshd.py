@@ -10,6 +10,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -67,18 +68,17 @@ def configuration(
 def who_logs_in(env: Mapping[str, str], ask: Callable[[str], str]) -> str:
     """The ID of who has logged in: that of the key, else the one asked for.
 
-    `ask` gets what was wrong with the answer before. Raises StudyError when the key's ID is no
-    pseudonym, or none was given in `ATTEMPTS` attempts.
+    `ask` gets the answer before, which could not be an ID. Raises StudyError when the key's ID is
+    no pseudonym, or none was given in `ATTEMPTS` attempts.
     """
     named = env.get(VARIABLE)
     if named is not None:
         return identify(named).participant
-    problem = ""
+    answer = ""
     for _ in range(ATTEMPTS):
-        try:
-            return identify(ask(problem).strip()).participant
-        except StudyError as error:
-            problem = str(error)
+        answer = ask(answer).strip()
+        with suppress(StudyError):
+            return identify(answer).participant
     raise StudyError("no participant ID was given", mend="Log in again")
 
 

@@ -33,7 +33,7 @@ from game.study.settings import StudySettings, read_settings
 
 class Totals(msgspec.Struct, frozen=True, kw_only=True):
     """Counts over the live sessions. `places` are all slots of the study, `taken` those given
-    out; `dropped` came to be marked so in the ledger."""
+    out; `turned_away` found none left, `dropped` came to be marked so in the ledger."""
 
     places: int
     taken: int
@@ -43,6 +43,7 @@ class Totals(msgspec.Struct, frozen=True, kw_only=True):
     cut_off: int
     finished: int
     declined: int
+    turned_away: int
     withdrawn: int
     dropped: int
 
@@ -166,6 +167,7 @@ def _totals(
         cut_off=states["cut off"],
         finished=states["finished"],
         declined=states["declined"],
+        turned_away=states["turned away"],
         withdrawn=ended["withdrawn"],
         dropped=ended["dropped"],
     )

@@ -9,6 +9,8 @@ from game.study.status import CellCount, StudyStatus, Totals
 
 HEADER = ("participant", "mode", "state", "phase", "clock", "last event", "broke in", "resumed")
 
+_RARE = ("turned_away",)
+"""Counts that are told only where there is something to count."""
 _TOTALS = (
     ("started", "started"),
     ("taking_part", "taking part"),
@@ -16,6 +18,7 @@ _TOTALS = (
     ("cut_off", "cut off"),
     ("finished", "finished"),
     ("declined", "declined"),
+    ("turned_away", "turned away"),
     ("withdrawn", "withdrawn"),
     ("dropped", "dropped out"),
 )
@@ -31,7 +34,10 @@ def heading(status: StudyStatus) -> str:
 
 def totals_line(totals: Totals) -> str:
     """The counts of live sessions, on one line."""
-    return ", ".join(f"{words} {getattr(totals, name)}" for name, words in _TOTALS)
+    counts = ((name, words, getattr(totals, name)) for name, words in _TOTALS)
+    return ", ".join(
+        f"{words} {count}" for name, words, count in counts if count or name not in _RARE
+    )
 
 
 def session_cells(session: SessionStatus) -> tuple[str, ...]:

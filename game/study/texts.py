@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import tomllib
+from importlib import resources
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -12,6 +13,8 @@ from game.coach.records import Level
 from game.errors import AnaError
 
 LIKERT_POINTS = 5
+LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off")
+"""Tables that texts.toml did not always have: where one is missing, it is as shipped."""
 
 
 class TextsError(AnaError):
@@ -81,6 +84,19 @@ class Units(_Part, frozen=True):
         return " ".join(parts)
 
 
+class Login(_Part, frozen=True):
+    """Asking for the participant's ID; `wrong` is told of an answer that cannot be one."""
+
+    ask: str
+    wrong: str
+
+
+class CutOff(_Part, frozen=True):
+    """Said before the questions about something that broke off."""
+
+    mission: str
+
+
 class Words(_Part, frozen=True):
     """The small words of the screens: what keys do, and what is still to be done."""
 
@@ -118,6 +134,9 @@ class Texts(_Part, frozen=True):
     """texts.toml."""
 
     version: str
+    login: Login
+    no_place: Page
+    withdrawn: Page
     consent: Consent
     declined: Page
     practice: Page
@@ -128,6 +147,7 @@ class Texts(_Part, frozen=True):
     memorise: Page
     label: Page
     mission: Page
+    cut_off: CutOff
     mental_state: Page
     likert: Page
     preference: Page
@@ -204,22 +224,38 @@ def filled(page: Page, **facts: str) -> Page:
     return Page(title=title, body=body)
 
 
+def preceded(page: Page, remark: str) -> Page:
+    """The page with a remark above its text, which stands out."""
+    return Page(title=page.title, body=f"**{remark}**\n\n{page.body.strip()}")
+
+
 _Read = TypeVar("_Read", Texts, Items)
 
 
 def read_texts(path: Path) -> Texts:
     """Raises TextsError, naming the file and the key."""
-    return _read(path, Texts)
+    shipped = _shipped_tree()
+    return _read(path, Texts, {name: shipped[name] for name in LATER_TEXTS})
+
+
+def shipped_texts() -> Texts:
+    """The texts of a new study."""
+    return msgspec.convert(_shipped_tree(), Texts)
 
 
 def read_items(path: Path) -> Items:
     """Raises TextsError, naming the file and the key."""
-    return _read(path, Items)
+    return _read(path, Items, {})
 
 
-def _read(path: Path, kind: type[_Read]) -> _Read:
+def _shipped_tree() -> dict[str, Any]:
+    shipped = resources.files("game.study") / "template" / "texts.toml"
+    return tomllib.loads(shipped.read_text(encoding="utf-8"))
+
+
+def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any]) -> _Read:
     try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
+        return msgspec.convert(otherwise | tomllib.loads(path.read_text(encoding="utf-8")), kind)
     except OSError as error:
         raise TextsError(
             f"the file cannot be read ({error.strerror})",

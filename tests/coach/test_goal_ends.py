@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from game.coach.guide import ALL_SAFE, NOBODY_IN_TIME
+from game.coach.guide import ALL_SAFE, NOBODY_IN_TIME, TOO_LATE
 from game.coach.records import (
     BeliefChanged,
     GoalSet,
@@ -40,6 +40,7 @@ def test_a_red_goal_that_cannot_be_treated_in_time_is_given_up_at_once() -> None
     goals = only(GoalSet, game.act(W))
     assert [record.reason for record in goals] == ["too_late"]
     assert goals[0].goal != "v03"
+    assert game.coach.guidance.notice == TOO_LATE
     expired = game.wait(8_000)
     assert only(Expired, expired)
     assert not only(GoalSet, expired)
@@ -49,6 +50,7 @@ def test_a_goal_that_expires_is_followed_by_another() -> None:
     game = Game(STATIC[1], settings=MissionSettings(red_expiry_ms=12_000))
     happened = game.wait(12_000)
     assert [record.reason for record in only(GoalSet, happened)] == ["expired"]
+    assert game.coach.guidance.notice == TOO_LATE
 
 
 def test_a_goal_that_expires_during_another_treatment_gives_way_to_it() -> None:

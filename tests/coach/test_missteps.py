@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
+from game.coach.compliance import HEEDED_CELLS
+from game.coach.guide import ANOTHER_FIRST
 from game.coach.instructions.corrections import WRONG_WAY
 from game.coach.records import (
     Disobeyed,
@@ -11,6 +17,7 @@ from game.coach.records import (
     Level,
     Misstep,
 )
+from game.coach.route import Route, RoutePlanner
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted
 from game.world.settings import MissionSettings
@@ -48,7 +55,24 @@ def test_whoever_strays_to_another_victim_is_led_there() -> None:
     assert [(record.goal, record.reason) for record in only(GoalSet, happened)] == [
         ("v03", "strayed")
     ]
-    assert only(InstructionIssued, happened)[-1].goal == "v03"
+    issued = only(InstructionIssued, happened)[-1]
+    assert (issued.goal, issued.notice) == ("v03", ANOTHER_FIRST)
+
+
+def test_a_step_or_two_astray_do_not_change_the_route(monkeypatch: pytest.MonkeyPatch) -> None:
+    planned: list[object] = []
+    plan = RoutePlanner.plan
+
+    def counted(self: RoutePlanner, *given: Any, **options: Any) -> Route:
+        planned.append(given)
+        return plan(self, *given, **options)
+
+    game = Game(STATIC[0], GALLERY)
+    monkeypatch.setattr(RoutePlanner, "plan", counted)
+    assert len(only(Misstep, game.act(*[E] * 9, W, W))) == 2
+    assert not planned
+    assert only(Misstep, game.act(W))
+    assert len(planned) == 1
 
 
 def test_a_correction_leaves_the_bar_once_it_is_heeded() -> None:
@@ -57,6 +81,17 @@ def test_a_correction_leaves_the_bar_once_it_is_heeded() -> None:
     game.wait(1)
     assert only(Misstep, game.records)
     assert game.coach.guidance.notice == ""
+
+
+def test_with_the_correction_go_the_words_that_turned_the_rescuer_back() -> None:
+    game = Game(STATIC[0], GALLERY)
+    game.act(*[E] * 9, W)
+    assert game.coach.guidance.notice == WRONG_WAY
+    assert game.coach.guidance.text.startswith("Turn around. Walk forward ")
+    happened = game.act(*[E] * HEEDED_CELLS)
+    assert [record.reason for record in only(InstructionIssued, happened)] == ["heeded"]
+    assert game.coach.guidance.notice == ""
+    assert game.coach.guidance.text.startswith("Walk forward ")
 
 
 def test_a_misstep_again_long_after_the_correction_is_disobedience() -> None:

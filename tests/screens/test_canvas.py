@@ -48,6 +48,25 @@ async def test_it_paints_just_what_is_asked_for(crop: Region) -> None:
             assert strip.text == whole[y].crop(crop.x, crop.right).text
 
 
+async def test_only_a_line_that_changed_is_made_anew() -> None:
+    app = Page()
+    async with app.run_test() as pilot:
+        drawing = app.query_one(Drawing)
+        before = drawing.render_lines(Region(0, 0, 20, 4))
+        drawing.draw([ROWS[0], (("new", "ink"),), ROWS[2]])
+        after = drawing.render_lines(Region(0, 0, 20, 4))
+        assert [old is new for old, new in zip(before, after, strict=True)] == [
+            True,
+            False,
+            True,
+            True,
+        ]
+        assert after[1].text == "new".ljust(20)
+        drawing.styles.width = 10
+        await pilot.pause()
+        assert {strip.cell_length for strip in drawing.render_lines(Region(0, 0, 10, 4))} == {10}
+
+
 async def test_a_blank_is_sent_without_ink() -> None:
     app = Page()
     async with app.run_test():

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from textual.app import App, ComposeResult
 
 from game.coach.records import PosteriorEvaluated
-from game.screens.bar import LINES, bar_rows
+from game.screens.bar import FLASH_S, LINES, InstructionBar, announces, bar_rows
 from game.screens.canvas import Row, difference, padded, plain, sliced, width, wrapped
 from game.screens.charts import Step, area_chart, step_chart
 from game.screens.coachpanel import gauge
-from game.screens.minimap import HALF_BLOCKS, QUARTER_BLOCKS, SmallMap
+from game.screens.minimap import HALF_BLOCKS, QUARTER_BLOCKS, Scale, SmallMap
 from game.screens.status import clock_text, next_change_ms, status_rows
 from game.world import load_building
 from game.world.building import Building
@@ -54,6 +58,49 @@ def test_the_bar_is_always_whole(
 def test_two_lines_at_80_columns_leave_the_bar_its_height() -> None:
     guidance = Guidance("word " * 22 + "end", "You have passed the door.")
     assert len(bar_rows(guidance, 80)) == LINES
+
+
+@given(words.map(lambda w: w[:10]), st.integers(80, 200))
+def test_the_words_stay_where_they_are_when_the_notice_goes(text: list[str], columns: int) -> None:
+    told = " ".join(text)
+    with_notice = bar_rows(Guidance(told, "That is the wrong way."), columns)
+    without = bar_rows(Guidance(told), columns)
+    assert len(with_notice) == len(without) == LINES
+    assert with_notice[1:] == without[1:] and plain(without)[0].isspace()
+
+
+@given(st.tuples(*[st.sampled_from(["", "one", "two"])] * 2).map(lambda two: Guidance(*two)))
+def test_only_what_was_not_said_before_is_announced(guidance: Guidance) -> None:
+    before = Guidance("one", "two")
+    news = {guidance.text, guidance.notice} - {"", before.text, before.notice}
+    swapped = guidance.text == before.notice or guidance.notice == before.text
+    assert announces(guidance, before) is bool(news or swapped)
+    assert not announces(Guidance(before.text), before)
+
+
+class BarAlone(App[None]):
+    def compose(self) -> ComposeResult:
+        yield InstructionBar()
+
+
+async def test_a_notice_that_goes_does_not_make_the_bar_new() -> None:
+    app = BarAlone()
+    async with app.run_test() as pilot:
+        bar = app.query_one(InstructionBar)
+
+        def edge() -> str:
+            return plain(bar.rows)[1][0]
+
+        bar.show(Guidance("Turn left.", "That is the wrong way."))
+        assert edge() == "▌"
+        bar._fresh_until = 0.0
+        bar.show(Guidance("Turn left."))
+        assert edge() == " " and "wrong" not in "".join(plain(bar.rows))
+        bar.show(Guidance("Turn left.", "Stop."))
+        assert edge() == "▌"
+        await pilot.pause(FLASH_S)
+        bar.show(Guidance("Turn left."))
+        assert edge() == " "
 
 
 def test_a_notice_is_styled_apart() -> None:
@@ -118,6 +165,23 @@ def test_half_blocks_show_every_wall_and_leave_doors_open() -> None:
             assert seen == tuple(plan.tile((x, 2 * y + i)) is Tile.WALL for i in (0, 1))
 
 
+@pytest.mark.parametrize("scale", [HALF_BLOCKS, QUARTER_BLOCKS])
+def test_signs_stand_for_all_doors_and_for_nothing_else(scale: Scale) -> None:
+    plan = HARBOUR.plan
+    drawn = SmallMap(plan, scale, signs=True)
+    everything = (1 << len(plan.tiles)) - 1
+    doors = [cell for cell in plan.cells(everything) if plan.tile(cell) is Tile.DOOR]
+    wanted = {(x // scale.across, y // scale.down) for x, y in doors}
+    for explored, style in ((0, "map-door"), (everything, "known-door")):
+        found = {
+            (x, y): ink
+            for y, row in enumerate(drawn.rows(explored, {}))
+            for x, (sign, ink) in enumerate(cells(row))
+            if sign == "+"
+        }
+        assert found == dict.fromkeys(wanted, f"{style}/{style}")
+
+
 def test_the_small_map_tells_explored_from_unexplored() -> None:
     for scale in (HALF_BLOCKS, QUARTER_BLOCKS):
         small = SmallMap(HARBOUR.plan, scale)
@@ -157,6 +221,16 @@ def test_a_hidden_score_is_not_drawn(ward: Building) -> None:
         assert ("points" in text) is drawn
 
 
+def test_where_time_is_no_matter_there_is_no_clock(ward: Building) -> None:
+    rules = MissionSettings()
+    observation = Mission(ward, rules).observation()
+    timed, untimed = (
+        plain(status_rows(observation, rules, 26, timed=timed)) for timed in (True, False)
+    )
+    assert not any(":" in line or "━" in line for line in untimed)
+    assert {line for line in untimed if line} < set(timed)
+
+
 def test_the_last_seconds_and_a_victim_in_reach_stand_out(ward: Building) -> None:
     rules = MissionSettings()
     mission = Mission(ward, rules)
@@ -164,6 +238,27 @@ def test_the_last_seconds_and_a_victim_in_reach_stand_out(ward: Building) -> Non
     assert all(style != "hurry" for _, style in status_rows(mission.observation(), rules, 26)[0])
     mission.step(None, 211_000)
     assert any(style == "hurry" for _, style in status_rows(mission.observation(), rules, 26)[0])
+
+
+def test_beside_a_victim_the_panel_says_what_to_do(ward: Building) -> None:
+    alone, rules = ward.victims[1], MissionSettings()
+    (x, y), lines = alone.cell, {}
+    for dx, dy in ((0, 0), (-1, 0), (-1, -1), (-2, 0), (-2, 1)):
+        mission = Mission(replace(ward, start=(x + dx, y + dy)), rules)
+        assert any(victim.cell == alone.cell for victim in mission.observation().victims)
+        lines[dx, dy] = plain(status_rows(mission.observation(), rules, 26))[5]
+    assert lines[0, 0] == lines[-1, 0] == " Space  treats"
+    assert lines[-1, -1] == lines[-2, 0] == "stand beside to treat" and not lines[-2, 1]
+    assert len(lines[-2, 0]) <= 26
+
+
+def test_who_is_rescued_needs_nobody_beside_them(ward: Building) -> None:
+    (x, y), rules = ward.victims[1].cell, MissionSettings()
+    mission = Mission(replace(ward, start=(x - 1, y)), rules)
+    mission.step(Action.TRIAGE, 0)
+    mission.step(Action.WEST, 10_000)
+    assert mission.observation().rescued == 1
+    assert not plain(status_rows(mission.observation(), rules, 26))[5]
 
 
 def test_reds_have_no_more_time_than_the_mission(ward: Building) -> None:

@@ -12,7 +12,7 @@ from game.screens.canvas import plain, width
 from game.screens.glyphs import PLAIN, SOLID, Kind, player_kind
 from game.screens.office import in_reach, kinds, labels, line_row, window_lines
 from game.world import load_building
-from game.world.building import Building
+from game.world.building import Building, Room
 from game.world.events import Action
 from game.world.geometry import Cell
 from game.world.mission import COMPASS_ACTIONS, Mission
@@ -87,11 +87,51 @@ def test_names_stand_on_lit_floor_near_their_label(actions: list[Action]) -> Non
         )
 
 
+in_rooms = st.sampled_from([(r, cell) for r in HARBOUR.rooms for cell in r.cells])
+
+
+@settings(max_examples=100)
+@given(in_rooms, st.sampled_from(["Ab", "Board Room", "A very much longer name of a room"]))
+def test_wherever_one_stands_in_a_room_its_name_covers_nothing_but_lit_floor(
+    place: tuple[Room, Cell], name: str
+) -> None:
+    room, here = place
+    rooms = tuple(replace(r, name=name) if r == room else r for r in HARBOUR.rooms)
+    inside = replace(HARBOUR, start=here, rooms=rooms)
+    observation = Mission(inside, MissionSettings()).observation()
+    cells, plan = kinds(observation), observation.plan
+    names = labels(observation, cells)
+    for y, (column, text) in names.items():
+        assert all(
+            cells[plan.index(((column + n) // 2, y))] == Kind.FLOOR for n in range(len(text))
+        )
+    drawn = "".join(label.text for label in names.values())
+    camera = Camera.centred(40, 20, here, (plan.width, plan.height))
+    rows = [line_row(line, camera, SOLID) for line in window_lines(observation, camera)]
+    assert sorted(drawn) == sorted("".join(t for row in rows for t, s in row if s == "label"))
+
+
+def steps_beside(room: Room) -> list[Cell]:
+    """The cells two to four above or below a label, so that its row is free."""
+    x, y = room.label
+    return [cell for cell in room.cells if abs(cell[0] - x) <= 1 and 2 <= abs(cell[1] - y) <= 4]
+
+
+def test_a_name_keeps_its_place_while_it_fits_there() -> None:
+    room = HARBOUR.room("Test Lab")
+    places = set()
+    for here in steps_beside(room):
+        observation = Mission(replace(HARBOUR, start=here), MissionSettings()).observation()
+        places.add(tuple(labels(observation, kinds(observation)).items()))
+    assert len(steps_beside(room)) > 5 and len(places) == 1
+
+
 def test_a_name_moves_aside_for_the_rescuer(ward: Building) -> None:
     room = ward.room("Records Room")
     at_label = replace(ward, start=room.label)
     observation = Mission(at_label, MissionSettings()).observation()
-    assert "Records Room" in "\n".join(picture(observation))
+    names = labels(observation, kinds(observation))
+    assert " ".join(label.text for _, label in sorted(names.items())) == "Records Room"
 
 
 def test_standing_on_a_victim_shows_both(ward: Building) -> None:

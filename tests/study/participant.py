@@ -54,6 +54,8 @@ KEYS = {
 }
 WALL = re.compile("[▀▄█]")
 """What the walls of a map are drawn with."""
+CLOCK = "for reds"
+"""What the panel shows of the time in missions, and not in practice."""
 
 
 @dataclass
@@ -180,6 +182,7 @@ class TerminalParticipant:
             if leg.opens_kind:
                 self._turn_page(title, self._begun)
             self._enter_mission()
+            assert CLOCK not in self.terminal.text()
             self.walk()
         self._wait(self._shows(texts.check.title))
 
@@ -223,6 +226,7 @@ class TerminalParticipant:
         """Read what the mission is about, and begin it."""
         self._turn_page(self.study.texts.mission.title, self._begun)
         self._enter_mission()
+        assert CLOCK in self.terminal.text()
 
     def walk(self, enough: Callable[[Walk], bool] = lambda _: False) -> None:
         """Rescue one victim after the other, until that is `enough` or the mission is over."""

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+import pytest
+
 from game.session.clock import VirtualClock
 from game.session.reader import Transcript, read_journal
 from game.session.records import PhaseStarted, Preflighted, Terminal
@@ -69,6 +71,7 @@ class Scripted:
         self.labels = labels
         self.moment = moment
         self.read_pages: list[Page] = []
+        self.slider_pages: list[Page] = []
 
     async def check(self, needed: ScreenSize) -> Preflighted:
         self._do("check")
@@ -119,6 +122,7 @@ class Scripted:
         await self._answer(sheet, 2)
 
     async def slide(self, page: Page, sheet: Sheet) -> None:
+        self.slider_pages.append(page)
         await self._answer(sheet, 42)
 
     async def rate(self, page: Page, sheet: Sheet) -> None:
@@ -175,6 +179,25 @@ def take_part(
     person = Scripted(clock, agrees=agrees, labels=labels, moment=moment)
     session = open_session(study, identity, TERMINAL, clock=clock, sink=sink)
     return asyncio.run(conduct(session, person)), person
+
+
+def cut_off(study: Study, identity: Identity, *, at: str, since: str = "", times: int = 1) -> None:
+    """Let a participant be cut off where they do `at` for so many times since they did `since`."""
+
+    class Cut(Exception):
+        pass
+
+    left, counting = times, not since
+
+    def moment(what: str) -> None:
+        nonlocal left, counting
+        counting |= what == since
+        left -= counting and what == at
+        if left == 0:
+            raise Cut
+
+    with pytest.raises(Cut):
+        take_part(study, identity, moment=moment)
 
 
 def journal_of(study: Study, identity: Identity = P01) -> Transcript:

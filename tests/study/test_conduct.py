@@ -37,16 +37,16 @@ from game.session.records import (
 )
 from game.session.sink import FileSink, MemorySink
 from game.session.verify import verify
-from game.study.conduct import instructor
+from game.study.conduct import Stopped, instructor
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study
-from game.study.ledger import CameBack, LedgerError, SlotTaken, ending_of, slot_of
+from game.study.ledger import CameBack, NoPlace, SlotTaken, ending_of, slot_of
 from game.study.ledger import SessionEnded as LedgerEnded
 from game.study.lock import SessionBusy, SessionLock
 from game.study.practice import LEGS
 from game.study.protocol import TIMELINE, Step, progress
 from game.world.events import Acted
-from tests.study.people import MISSION_MS, P01, journal_of, small_study, take_part
+from tests.study.people import MISSION_MS, P01, cut_off, journal_of, small_study, take_part
 
 P05 = Identity("live", "P05")
 
@@ -380,10 +380,29 @@ def test_a_drop_out_whose_place_was_given_away_is_told_so(tmp_path: Path) -> Non
     before = (study.home(P05) / "journal.jsonl").read_bytes()
     assert study.ledger.allocate("P06", "live", refill=True).slot == slot
     for _ in range(2):
-        with pytest.raises(LedgerError, match="to somebody else in the meantime"):
+        with pytest.raises(NoPlace, match="to somebody else in the meantime"):
             take_part(study, P05)
     assert (study.home(P05) / "journal.jsonl").read_bytes() == before
     assert ending_of(study.ledger.entries(), "P05", "live") == "dropped"
+
+
+def test_leaving_the_last_page_by_ctrl_c_changes_nothing(copy: Study) -> None:
+    def leave(_: str) -> None:
+        raise Stopped
+
+    before = (copy.home(P01) / "journal.jsonl").read_bytes()
+    assert take_part(copy, moment=leave)[0] == "over"
+    assert (copy.home(P01) / "journal.jsonl").read_bytes() == before
+
+
+def test_the_sliders_say_that_a_mission_was_cut_off(tmp_path: Path) -> None:
+    study = small_study(tmp_path / "study")
+    cut_off(study, P01, at="play", since="label")
+    _, person = take_part(study)
+    first, second = person.slider_pages
+    remark = study.texts.cut_off.mission
+    assert first.body.startswith(f"**{remark}**\n\nThink of the mission")
+    assert remark not in second.body
 
 
 def test_nobody_is_dropped_while_taking_part(tmp_path: Path) -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
 
-from game.study.lock import LOCK, SessionBusy, SessionLock, take_over
+from game.study.lock import LOCK, SessionBusy, SessionLock, is_held, take_over
 
 HOLDER = """
 import signal, sys, time
@@ -80,6 +82,25 @@ def test_a_pid_in_a_lock_that_nobody_holds_is_not_touched(tmp_path: Path) -> Non
     assert bystander.poll() is None
     bystander.communicate(b"\n")
     assert bystander.returncode == 0
+
+
+def test_the_kernel_and_no_number_tells_whether_a_session_is_open(tmp_path: Path) -> None:
+    assert not is_held(tmp_path)
+    process = holder(tmp_path, "polite")
+    (tmp_path / LOCK).write_text("")
+    assert is_held(tmp_path)
+    process.kill()
+    process.wait()
+    (tmp_path / LOCK).write_text(f"{os.getpid()}\n")
+    assert not is_held(tmp_path)
+
+
+def test_a_look_at_the_lock_keeps_nobody_out(tmp_path: Path) -> None:
+    SessionLock(tmp_path).release()
+    with (tmp_path / LOCK).open("rb") as file:
+        fcntl.flock(file, fcntl.LOCK_SH)
+        threading.Timer(0.03, fcntl.flock, (file.fileno(), fcntl.LOCK_UN)).start()
+        SessionLock(tmp_path).release()
 
 
 def test_every_folder_made_for_a_session_is_private(tmp_path: Path) -> None:

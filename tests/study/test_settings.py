@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from game.study.settings import SettingsError, read_settings
-from game.study.texts import TextsError, read_items, read_texts
+from game.study.texts import LATER_TEXTS, TextsError, read_items, read_texts, shipped_texts
 
 TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
 NAMES = {
@@ -76,6 +77,25 @@ def test_the_texts_are_sound_and_ask_what_the_paper_asked() -> None:
     assert [statement.id for statement in items.statement] == ["pref1", "pref2", "pref3", "pref4"]
     shown = (TEMPLATE / "texts.toml").read_text().split("[debrief]")[0].casefold()
     assert not any(word in shown for word in ("static", "adaptive", "level"))
+
+
+def test_texts_of_an_earlier_study_lack_nothing(tmp_path: Path) -> None:
+    written = tomllib.loads((TEMPLATE / "texts.toml").read_text())
+    assert set(LATER_TEXTS) < written.keys()
+    lines, kept = [], True
+    for line in (TEMPLATE / "texts.toml").read_text().splitlines():
+        if line.startswith("["):
+            kept = line.strip("[]") not in LATER_TEXTS
+        lines += [line] * kept
+    path = tmp_path / "texts.toml"
+    path.write_text("\n".join(lines).replace('title = "Welcome"', 'title = "Willkommen"'))
+    assert not set(LATER_TEXTS) & tomllib.loads(path.read_text()).keys()
+    texts = read_texts(path)
+    assert texts.consent.title == "Willkommen"
+    assert (texts.no_place, texts.cut_off) == (shipped_texts().no_place, shipped_texts().cut_off)
+    path.write_text(path.read_text().replace("[declined]", "[refused]"))
+    with pytest.raises(TextsError):
+        read_texts(path)
 
 
 @pytest.mark.parametrize(

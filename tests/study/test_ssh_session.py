@@ -146,6 +146,7 @@ def take_part(server: Server, study: Study) -> TakenPart:
     until_free(study)
     with login(server, "p01") as terminal:
         person = TerminalParticipant(terminal, study, P01)
+        terminal.wait_for("The mission was cut off")
         person.slide(SLIDERS[0])
         person.rate(STATEMENTS[0])
         person.memorise()

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
+import shutil
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -17,14 +16,14 @@ from game.session.play import JOURNAL
 from game.session.reader import read_journal
 from game.study.design import design_cell
 from game.study.dropout import drop_out
-from game.study.folder import Identity, Study, StudyError
-from game.study.ledger import LedgerError, Unblinded
+from game.study.folder import Identity, Study, StudyError, open_study
+from game.study.ledger import NoPlace, Unblinded
 from game.study.lock import LOCK, SessionLock
 from game.study.roll import Roll, SessionStatus
 from game.study.status import ExclusionRule, StatusReader, breakdown
 from game.study.statustext import age
 from game.study.withdraw import withdraw
-from tests.study.people import small_study, take_part
+from tests.study.people import cut_off, small_study, take_part
 from tests.study.server import ANA
 from tests.terminal import Terminal
 
@@ -32,28 +31,9 @@ P01, P02, P03 = (Identity("live", f"P0{number}") for number in (1, 2, 3))
 CELL_WORDS = ("slot", "complexity", "memorise_ms", "static_level", "adaptive", "C1", "C2", "C3")
 
 
-class Cut(Exception):
-    pass
-
-
 @pytest.fixture
 def study(tmp_path: Path) -> Study:
     return small_study(tmp_path / "study")
-
-
-def cut_at(study: Study, identity: Identity, what: str, times: int = 1, *, since: str = "") -> None:
-    """Let somebody take part until `what` has been done so many times since `since` was."""
-    left, counting = times, not since
-
-    def moment(now: str) -> None:
-        nonlocal left, counting
-        counting |= now == since
-        left -= counting and now == what
-        if left == 0:
-            raise Cut
-
-    with pytest.raises(Cut):
-        take_part(study, identity, moment=moment)
 
 
 def seen(study: Study, now: datetime | None = None) -> dict[str, SessionStatus]:
@@ -74,7 +54,7 @@ def written_at(study: Study, identity: Identity) -> datetime:
 def test_each_session_is_where_it_is(study: Study) -> None:
     take_part(study, P01)
     take_part(study, P02, agrees=False)
-    cut_at(study, P03, "label")
+    cut_off(study, P03, at="label")
     now = seen(study, written_at(study, P03) + timedelta(seconds=5))
     assert (now["P01"].state, now["P01"].phase) == ("finished", "debrief")
     assert (now["P02"].state, now["P02"].problems) == ("declined", ())
@@ -86,14 +66,14 @@ def test_each_session_is_where_it_is(study: Study) -> None:
 
 
 def test_who_resumes_is_counted(study: Study) -> None:
-    cut_at(study, P01, "label")
+    cut_off(study, P01, at="label")
     take_part(study, P01)
     now = seen(study)["P01"]
     assert (now.state, now.resumed) == ("finished", 1)
 
 
 def test_a_session_whose_process_lives_takes_part(study: Study) -> None:
-    cut_at(study, P01, "label")
+    cut_off(study, P01, at="label")
     lock = SessionLock(study.home(P01))
     moment = written_at(study, P01)
     assert seen(study, moment)["P01"].state == "taking part"
@@ -101,29 +81,36 @@ def test_a_session_whose_process_lives_takes_part(study: Study) -> None:
     (problem,) = seen(study, moment + timedelta(seconds=30))["P01"].problems
     assert "frozen" in problem
     lock.release()
-    gone = subprocess.Popen([sys.executable, "-c", ""])
-    gone.wait()
-    (study.home(P01) / LOCK).write_text(f"{gone.pid}\n")
     assert seen(study, moment)["P01"].state == "cut off"
 
 
+def test_in_a_copy_of_a_study_nobody_takes_part(study: Study, tmp_path: Path) -> None:
+    cut_off(study, P01, at="label")
+    lock = SessionLock(study.home(P01))
+    copy = open_study(Path(shutil.copytree(study.folder, tmp_path / "copy")))
+    assert (copy.home(P01) / LOCK).read_text() == f"{os.getpid()}\n"
+    assert seen(study)["P01"].state == "taking part"
+    assert seen(copy)["P01"].state == "cut off"
+    lock.release()
+
+
 def test_before_consent_there_is_only_somebody_there(study: Study) -> None:
-    SessionLock(study.home(P01))
+    lock = SessionLock(study.home(P01))
     (session,) = seen(study).values()
     assert (session.state, session.phase, session.silent_s) == ("taking part", "consent", None)
-    (study.home(P01) / LOCK).write_text("")
+    lock.release()
     assert seen(study) == {}
 
 
 def test_the_clock_of_memorising_would_tell_the_allocation_and_is_not_shown(study: Study) -> None:
-    cut_at(study, P01, "memorise", 3)
+    cut_off(study, P01, at="memorise", times=3)
     now = seen(study)["P01"]
     assert (now.phase, now.clock_s, now.limit_s) == ("memorise", None, None)
 
 
 def test_the_clock_of_a_mission_is_what_was_played(study: Study) -> None:
     missions = study.settings.mission.duration_ms // 1000
-    cut_at(study, P01, "play", 7, since="memorise")
+    cut_off(study, P01, at="play", times=7, since="memorise")
     now = seen(study)["P01"]
     assert (now.phase, now.round, now.limit_s) == ("mission", 1, missions)
     assert now.clock_s == 3
@@ -180,7 +167,7 @@ def test_a_journal_that_may_not_be_read_is_told(study: Study) -> None:
 
 def test_looking_changes_nothing(study: Study) -> None:
     take_part(study, P01)
-    cut_at(study, P02, "label")
+    cut_off(study, P02, at="label")
 
     def state() -> dict[str, tuple[bytes, int]]:
         return {
@@ -198,7 +185,7 @@ def test_looking_changes_nothing(study: Study) -> None:
 def test_totals_are_of_live_sessions(study: Study) -> None:
     take_part(study, P01)
     take_part(study, P02, agrees=False)
-    cut_at(study, P03, "label")
+    cut_off(study, P03, at="label")
     take_part(study, Identity("pilot", "T01"))
     withdraw(study, P01)
     totals = StatusReader(study.folder).look().totals
@@ -207,7 +194,7 @@ def test_totals_are_of_live_sessions(study: Study) -> None:
 
 
 def test_a_drop_out_keeps_what_was_recorded(study: Study) -> None:
-    cut_at(study, P01, "label")
+    cut_off(study, P01, at="label")
     take_part(study, P02)
     done = CliRunner().invoke(group, ["drop", str(study.folder), "P01"])
     assert done.stdout == "P01 dropped out; the place stays empty (study.toml)\n"
@@ -223,7 +210,7 @@ def test_a_drop_out_keeps_what_was_recorded(study: Study) -> None:
 def test_nothing_tells_how_anybody_was_allocated(study: Study) -> None:
     for identity in (P01, P02):
         take_part(study, identity)
-    cut_at(study, P03, "memorise", 2)
+    cut_off(study, P03, at="memorise", times=2)
     told = command(study, "--json").stdout + command(study).stdout
     assert [word for word in CELL_WORDS if word in told] == []
     assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
@@ -244,12 +231,25 @@ def test_unblinding_leaves_its_trace_before_it_tells(study: Study) -> None:
     assert entry.why == "ana study status --unblind"
 
 
+def test_who_was_turned_away_is_counted_where_there_is_somebody(study: Study) -> None:
+    cut_off(study, P01, at="look")
+    assert "turned away" not in command(study).stdout
+    study.ledger.close()
+    take_part(study, P01)
+    take_part(study, P02)
+    told = command(study).stdout
+    assert "declined 0, turned away 1, withdrawn 0" in told
+    assert told.count("turned away  practice") == 1
+    assert "P02" not in told
+    assert "Look at" not in told
+
+
 def test_a_closed_study_tells_everything_and_takes_nobody(study: Study) -> None:
     take_part(study, P01)
     assert CliRunner().invoke(group, ["close", str(study.folder)]).exit_code == 0
     assert "design_cells" in json.loads(command(study, "--json").stdout)
     assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
-    with pytest.raises(LedgerError, match="closed"):
+    with pytest.raises(NoPlace, match="closed"):
         study.ledger.allocate("P05", "live")
     assert study.ledger.allocate("P01", "live").slot == 0
     assert study.ledger.allocate("T01", "pilot").slot == 0
@@ -284,7 +284,7 @@ def test_watching_follows_and_leaves_with_q(study: Study) -> None:
         before = len(terminal.chunks)
         terminal.read_for(1.5)
         repainted = b"".join(chunk.data for chunk in terminal.chunks[before:])
-        cut_at(study, P02, "label")
+        cut_off(study, P02, at="label")
         terminal.wait_for("P02")
         terminal.press("q")
         assert terminal.wait() == 0

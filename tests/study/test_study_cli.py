@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
 
 from game.cli import main
-from game.study.folder import Study, open_study
-from game.study.ledger import ending_of
-from tests.study.people import P01
+from game.study.folder import Identity, Study, open_study
+from game.study.ledger import Unblinded, ending_of
+from tests.study.people import P01, small_study, take_part
 
 
 def test_a_study_is_made_and_the_next_step_told(
@@ -54,3 +56,81 @@ def test_withdrawal(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
     assert ending_of(copy.ledger.entries(), "P01", "pilot") == "withdrawn"
     assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot"]) == 0
     assert "nothing had been recorded" in capsys.readouterr().out
+
+
+def test_closing_says_what_becomes_of_whom(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "close", str(copy.folder)]) == 0
+    told = capsys.readouterr().out
+    assert "Who has a place may finish" in told
+    assert "newcomers at login" in told
+
+
+# --- analysing a live study ---------------------------------------------------------------------
+
+
+@pytest.fixture
+def live(tmp_path: Path) -> Study:
+    """A study with one live session and a pilot."""
+    study = small_study(tmp_path / "study")
+    for identity in (P01, Identity("live", "P01")):
+        assert take_part(study, identity)[0] == "over"
+    return study
+
+
+def unblindings(study: Study) -> list[str]:
+    return [entry.why for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
+
+
+def analyse(study: Study, *options: str) -> int:
+    out = study.folder.parent / "results.json"
+    status = main(["analyse", str(study.folder), "--json", str(out), "--no-verify", *options])
+    assert out.exists()
+    out.unlink()
+    return status
+
+
+def test_analysing_an_open_study_unblinds_it_as_an_export_does(
+    live: Study, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", "export", str(live.folder), str(tmp_path / "dataset")]) == 0
+    words = capsys.readouterr().err
+    assert words == "The study is open: the ledger records that it was unblinded.\n"
+    assert analyse(live) == 2, "one participant is too few for every model"
+    assert capsys.readouterr().err == words
+    assert unblindings(live) == ["ana study export", "ana analyse"]
+
+
+def test_what_conceals_nothing_is_not_recorded(
+    live: Study, capsys: pytest.CaptureFixture[str]
+) -> None:
+    analyse(live, "--mode", "pilot")
+    live.ledger.close()
+    analyse(live)
+    assert unblindings(live) == []
+    assert capsys.readouterr().err == ""
+
+
+def test_an_analysis_that_tells_nothing_is_not_recorded(live: Study, tmp_path: Path) -> None:
+    source, out = str(live.folder), str(tmp_path / "results.json")
+    assert main(["analyse", source, "--json", out, "--quiz", "quiz.csv"]) == 2
+    assert unblindings(live) == []
+
+
+def test_a_copy_whose_ledger_cannot_be_written_is_analysed_all_the_same(
+    live: Study, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened = os.open
+
+    def read_only(path: Path, flags: int, *mode: int, **keywords: int) -> int:
+        if path == live.ledger.path:
+            raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+        return opened(path, flags, *mode, **keywords)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("os.open", read_only)
+        analyse(live)
+    assert "could not be recorded" in capsys.readouterr().err
+    assert unblindings(live) == []
+    live.ledger.path.unlink()
+    analyse(live)
+    assert "could not be recorded" in capsys.readouterr().err

@@ -26,9 +26,10 @@ from game.screens.terminal import this_terminal
 from game.screens.theme import THEMES, theme_name
 from game.study.conduct import conduct
 from game.study.folder import Identity, Study
+from game.study.ledger import NoPlace
 from game.study.lock import SessionBusy, SessionLock, take_over
-from game.study.session import StudySession, open_session
-from game.study.texts import filled
+from game.study.session import HasWithdrawn, StudySession, open_session, see_place
+from game.study.texts import Page, filled
 
 STATUS_TROUBLE = 2
 
@@ -64,18 +65,28 @@ class StudyApp(App[None], inherit_bindings=False):
 
     @work(exit_on_error=True)
     async def _lead(self) -> None:
+        texts = self.study.texts
         try:
             await self._take_part()
+        except NoPlace:
+            await self._close_with(texts.no_place)
+        except HasWithdrawn:
+            await self._close_with(texts.withdrawn)
         except AnaError as error:
             self.failure = error
-            page = filled(self.study.texts.words.trouble, problem=str(error))
-            await self.push_screen_wait(PageScreen(self.frame, page))
-            self.exit(return_code=STATUS_TROUBLE)
+            page = filled(texts.words.trouble, problem=error.message)
+            await self._close_with(page, STATUS_TROUBLE)
         else:
             self.exit()
 
+    async def _close_with(self, page: Page, status: int = 0) -> None:
+        await self.push_screen_wait(PageScreen(self.frame, page))
+        self.exit(return_code=status)
+
     async def _take_part(self) -> None:
         home = self.study.home(self.identity)
+        if not home.exists():
+            await asyncio.to_thread(see_place, self.study, self.identity)
         silent_ms = None
         try:
             lock = SessionLock(home)
@@ -129,7 +140,8 @@ class StudyApp(App[None], inherit_bindings=False):
         """While the terminal is too small for what is shown, cover it."""
         enough = fits(size.width, size.height, self.frame.size)
         covered = isinstance(self.screen, WindowTooSmall)
-        nothing_yet = len(self.screen_stack) == 1 or isinstance(self.screen, PreflightScreen)
+        nothing_yet = self.session is None or isinstance(self.screen, PreflightScreen)
+        nothing_yet |= len(self.screen_stack) == 1
         if covered and enough:
             self.pop_screen()
         elif not (covered or enough or nothing_yet):

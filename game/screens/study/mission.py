@@ -71,14 +71,20 @@ class StudyMissionScreen(MissionScreen):
 
     def __init__(self, frame: Frame, live: StudyMission, reminder: Page) -> None:
         super().__init__(live, live.task.home / JOURNAL)
+        self.view.status.timed = self._is_mission
         self.frame = frame
         self.reminder = reminder
+
+    @property
+    def _is_mission(self) -> bool:
+        """Whether this is a mission of a round, and no leg of the practice."""
+        return self.live.task.goals is None
 
     def compose(self) -> ComposeResult:
         yield Stage(self.frame, self.view)
 
     def on_mount(self) -> None:
-        if self.live.task.goals is None:
+        if self._is_mission:
             self.set_interval(TICK_S, self._expose)
 
     def _expose(self) -> None:

@@ -31,12 +31,14 @@ class PlanMap(Canvas):
         """Show `names` by the rooms' true names, and let the room `asked` about stand out."""
         pins: dict[Cell, Pin] = {}
         tints: dict[Cell, str] = {}
-        if asked is not None and self.app.native_ansi_color:
+        few = self.app.native_ansi_color
+        if asked is not None and few:
             pins = dict.fromkeys(_characters(asked), HATCHED)
         elif asked is not None:
             tints = dict.fromkeys(asked.cells, "asked")
+        stands_out = "asked-name" if few else "asked-name/asked"
         for room in self._building.rooms:
-            style = "asked-name/asked" if room is asked and tints else "name"
+            style = stands_out if room is asked else "name"
             name = names.get(room.name, "?" if room is asked else "")
             fitting = label_lines(name, room.cells) or label_lines(GIVEN, room.cells)
             for line in fitting if name else ():
@@ -44,7 +46,7 @@ class PlanMap(Canvas):
                     pins[column, HALF_BLOCKS.down * line.row] = letter, style
         plan = self._building.plan
         everything = (1 << len(plan.tiles)) - 1
-        self.draw(SmallMap(plan, HALF_BLOCKS, tints).rows(everything, pins))
+        self.draw(SmallMap(plan, HALF_BLOCKS, tints, signs=few).rows(everything, pins))
 
 
 def _characters(room: Room) -> list[Cell]:
