@@ -13,7 +13,7 @@ from game import __version__
 from game.errors import AnaError
 from game.lazy import LazyCommand, LazyGroup
 
-OBJECTS_BETWEEN_COLLECTIONS = 50_000
+OBJECTS_BETWEEN_COLLECTIONS = 10_000
 """Importing makes many objects and no garbage; to look for it every 700 of them would take a
 fifteenth of the time until the game opens."""
 
