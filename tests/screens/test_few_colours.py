@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
-from typing import Any
 
 import pytest
 from rich.style import Style
 from textual.pilot import Pilot
-from textual.screen import Screen
 from textual.widget import Widget
 
 from game.screens.app import AnaApp
@@ -25,6 +22,7 @@ from game.screens.study.app import StudyApp
 from game.screens.study.planmap import PlanMap
 from game.screens.study.preflight import Checks, PreflightScreen
 from game.world import load_building
+from tests.screens.pilots import painted, until
 from tests.study.people import P01, small_study
 
 Open = Callable[..., AbstractAsyncContextManager[tuple[AnaApp, Pilot[None]]]]
@@ -39,22 +37,6 @@ def few(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, open_ap
     if request.param == "none":
         monkeypatch.setenv("NO_COLOR", "1")
     return str(request.param)
-
-
-async def until(pilot: Pilot[None], kind: type[Screen[Any]]) -> Screen[Any]:
-    """Wait until a screen of this kind is shown, and give it."""
-    for _ in range(500):
-        if isinstance(pilot.app.screen, kind):
-            await pilot.pause()
-            return pilot.app.screen
-        await asyncio.sleep(0.02)
-    raise AssertionError(f"{pilot.app.screen} instead of {kind.__name__}")
-
-
-def shown(screen: Screen[Any]) -> str:
-    """All that stands in the window."""
-    lines = screen._compositor.render_strips(screen.app.size)
-    return "\n".join(strip.text for strip in lines)
 
 
 def of(ink: Style) -> int | None:
@@ -131,7 +113,7 @@ async def test_a_question_leaves_the_mission_in_sight_and_a_small_window_does_no
         await until(pilot, MissionScreen)
         await pilot.press("q")
         assert isinstance(app.screen, Question)
-        assert "rescued" in shown(app.screen) and "Leave the mission?" in shown(app.screen)
+        assert "rescued" in painted(app.screen) and "Leave the mission?" in painted(app.screen)
         await pilot.resize_terminal(70, 20)
         await pilot.pause()
-        assert "too small" in shown(app.screen) and "rescued" not in shown(app.screen)
+        assert "too small" in painted(app.screen) and "rescued" not in painted(app.screen)

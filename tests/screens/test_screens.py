@@ -44,6 +44,7 @@ from game.world.events import Acted, Action, Expired, Rescued
 from game.world.geometry import Heading
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings
+from tests.screens.pilots import until
 
 Open = Callable[..., AbstractAsyncContextManager[tuple[AnaApp, Pilot[None]]]]
 
@@ -59,16 +60,6 @@ async def press(pilot: Pilot[None], *keys: str) -> None:
 def showing(app: AnaApp, screen: Screen[Any]) -> bool:
     """Whether this screen is the one shown."""
     return app.screen is screen
-
-
-async def until(pilot: Pilot[None], kind: type[Screen[Any]], seconds: float = 10) -> Any:
-    """Wait until a screen of this kind is shown, and give it."""
-    for _ in range(int(seconds / 0.02)):
-        if isinstance(pilot.app.screen, kind):
-            await pilot.pause()
-            return pilot.app.screen
-        await asyncio.sleep(0.02)
-    raise AssertionError(f"{pilot.app.screen} instead of {kind.__name__}")
 
 
 def shown(screen: Screen[Any]) -> str:

@@ -8,15 +8,13 @@ from pathlib import Path
 import pytest
 
 from game.study.folder import Study, open_study
-from tests.study.people import small_study, take_part
+from tests.study.people import finished_study
 
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
     """Not to be changed: take a copy."""
-    study = small_study(tmp_path_factory.mktemp("study") / "finished")
-    assert take_part(study)[0] == "over"
-    return study
+    return finished_study(tmp_path_factory.mktemp("study") / "finished")
 
 
 @pytest.fixture

@@ -218,3 +218,10 @@ def rewind(study: Study, step: Step) -> None:
     ledger = study.folder / "ledger.jsonl"
     lines = ledger.read_bytes().splitlines(keepends=True)
     ledger.write_bytes(b"".join(line for line in lines if b'"session_ended"' not in line))
+
+
+def finished_study(folder: Path) -> Study:
+    """A small study in which one scripted participant has finished."""
+    study = small_study(folder)
+    assert take_part(study)[0] == "over"
+    return study

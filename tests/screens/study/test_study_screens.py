@@ -11,7 +11,6 @@ from typing import Any
 
 import pytest
 from textual.pilot import Pilot
-from textual.screen import Screen
 
 from game.screens.dialogs import Question
 from game.screens.study.app import StudyApp
@@ -43,6 +42,7 @@ from game.session.sink import FileSink
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
 from game.study.protocol import Step
+from tests.screens.pilots import painted, until
 from tests.study.people import P01, journal_of, rewind, small_study
 
 SIZE = (120, 40)
@@ -80,16 +80,6 @@ async def let_go(study: Study) -> None:
     raise AssertionError("the lock is still held")
 
 
-async def until(pilot: Pilot[Any], kind: type[Screen[Any]], limit_s: float = 20.0) -> Any:
-    """Wait for a screen of this kind to be on top."""
-    for _ in range(round(limit_s / 0.02)):
-        if isinstance(pilot.app.screen, kind):
-            await pilot.pause()
-            return pilot.app.screen
-        await pilot.pause(0.02)
-    raise AssertionError(f"{pilot.app.screen} is shown, not {kind}")
-
-
 async def closed(pilot: Pilot[Any]) -> None:
     """Wait for the program to end."""
     for _ in range(500):
@@ -107,13 +97,6 @@ def records(study: Study, kind: type, phase: str = "", segment: int | None = Non
         and phase in ("", entry.envelope.phase)
         and segment in (None, entry.envelope.segment)
     ]
-
-
-def shown(pilot: Pilot[Any]) -> str:
-    """All that stands on the screen."""
-    size = pilot.app.size
-    lines = pilot.app.screen._compositor.render_strips(size)
-    return "\n".join(strip.text for strip in lines)
 
 
 async def test_from_login_to_practice(tmp_path: Path) -> None:
@@ -149,11 +132,11 @@ async def test_a_long_consent_can_be_read_and_answered(tmp_path: Path) -> None:
         await pilot.press("up", "down", "left", "right", "space", "enter")
         await until(pilot, ChoiceScreen)
         await pilot.pause()
-        assert "PgDn" in shown(pilot)
-        assert study.texts.consent.agree not in shown(pilot)
+        assert "PgDn" in painted(pilot.app.screen)
+        assert study.texts.consent.agree not in painted(pilot.app.screen)
         await pilot.press("down")
         await pilot.pause()
-        assert study.texts.consent.agree in shown(pilot)
+        assert study.texts.consent.agree in painted(pilot.app.screen)
         await pilot.press("enter")
         await until(pilot, PageScreen)
 
@@ -166,7 +149,7 @@ async def test_declining(tmp_path: Path) -> None:
         await until(pilot, ChoiceScreen)
         await pilot.press("up", "enter")
         await until(pilot, PageScreen)
-        assert study.texts.declined.title in shown(pilot)
+        assert study.texts.declined.title in painted(pilot.app.screen)
         await pilot.press("enter")
         await closed(pilot)
     assert len(journal_of(study).entries) == 3
@@ -177,8 +160,8 @@ async def test_a_small_window_is_asked_to_grow(study: Study) -> None:
         sliders = await until(pilot, SlidersScreen)
         await pilot.resize_terminal(100, 30)
         await until(pilot, WindowTooSmall)
-        assert "100 x 30" in shown(pilot)
-        assert "120 x 40" in shown(pilot)
+        assert "100 x 30" in painted(pilot.app.screen)
+        assert "120 x 40" in painted(pilot.app.screen)
         await pilot.press("7")
         await pilot.resize_terminal(140, 50)
         assert await until(pilot, SlidersScreen) is sliders
@@ -199,8 +182,8 @@ async def test_preflight_waits_for_a_window_large_enough(tmp_path: Path) -> None
     async with StudyApp(study, P01).run_test(size=(80, 24)) as pilot:
         await until(pilot, PreflightScreen)
         await pilot.press("up", "down", "left", "right", "space", "enter")
-        assert "80 x 24" in shown(pilot)
-        assert "120 x 40" in shown(pilot)
+        assert "80 x 24" in painted(pilot.app.screen)
+        assert "120 x 40" in painted(pilot.app.screen)
         await pilot.resize_terminal(*SIZE)
         assert isinstance(pilot.app.screen, PreflightScreen)
         await pilot.press("enter")
@@ -212,7 +195,7 @@ async def test_a_larger_window_has_blank_margins(study: Study) -> None:
         await until(pilot, SlidersScreen)
         await pilot.resize_terminal(160, 50)
         await pilot.pause()
-        lines = shown(pilot).split("\n")
+        lines = painted(pilot.app.screen).split("\n")
         assert not "".join(line[:20] + line[140:] for line in lines).strip()
         assert not "".join(lines[:5] + lines[45:]).strip()
 
@@ -223,7 +206,7 @@ async def test_the_map_stays_for_its_whole_time_and_no_key_ends_it(study: Study)
         await pilot.press("enter")
         memorise = await until(pilot, MemoriseScreen)
         for name in ("Lobby", "Canteen", "Kitchen"):
-            assert name in shown(pilot)
+            assert name in painted(pilot.app.screen)
         await pilot.press("enter", "space", "escape", "q", "ctrl+d", "ctrl+z", "ctrl+p")
         assert pilot.app.screen is memorise
         await until(pilot, PageScreen)
@@ -246,7 +229,7 @@ async def test_labelling(study: Study) -> None:
         assert not label.labelling.given
         await pilot.press("up", "enter")
         await until(pilot, Question)
-        assert "20" in shown(pilot)
+        assert "20" in painted(pilot.app.screen)
         await pilot.press("y")
         await until(pilot, PageScreen)
     given = records(study, QuizAnswer, "label", segment=1)
@@ -293,10 +276,10 @@ async def test_a_mission_is_played_to_its_end(study: Study) -> None:
         mission = await until(pilot, StudyMissionScreen)
         await pilot.press("up", "p", "ctrl+p", "ctrl+z", "ctrl+backslash")
         assert pilot.app.screen is mission
-        text = shown(pilot)
+        text = painted(pilot.app.screen)
         await pilot.press("question_mark")
         await until(pilot, Reminder)
-        text += shown(pilot)
+        text += painted(pilot.app.screen)
         assert study.texts.lessons.walking.title in text
         await pilot.press("enter")
         assert pilot.app.screen is mission
@@ -320,7 +303,7 @@ async def test_leaving_a_mission_ends_it_and_the_sliders_follow(study: Study) ->
         await until(pilot, Question)
         await pilot.press("y")
         await until(pilot, PageScreen)
-        assert study.texts.words.goodbye.title in shown(pilot)
+        assert study.texts.words.goodbye.title in painted(pilot.app.screen)
         await pilot.press("enter")
         await closed(pilot)
     assert records(study, MissionAbandoned, "mission")
@@ -380,13 +363,13 @@ async def test_statements(study: Study) -> None:
 async def test_preference_reason_and_the_end(study: Study) -> None:
     async with at(study, Step("preference")) as pilot:
         await until(pilot, ChoiceScreen)
-        assert "Instructor Amber" in shown(pilot)
+        assert "Instructor Amber" in painted(pilot.app.screen)
         await pilot.press("2", "enter")
         await until(pilot, ReasonScreen)
         await pilot.press(*"no q", "enter")
         await until(pilot, PageScreen)
         session = pilot.app.session  # type: ignore[attr-defined]
-        assert session.completion_code in shown(pilot)
+        assert session.completion_code in painted(pilot.app.screen)
         assert records(study, SessionEnded) == [SessionEnded("finished")]
         await pilot.press("enter")
         await closed(pilot)
@@ -410,7 +393,7 @@ async def test_a_full_disk_is_told_and_nothing_goes_on(
         await until(pilot, ChoiceScreen)
         await pilot.press("1", "enter")
         await until(pilot, PageScreen)
-        assert "the disk is full" in shown(pilot)
+        assert "the disk is full" in painted(pilot.app.screen)
         await pilot.press("enter")
         await closed(pilot)
         assert pilot.app.return_code == 2
@@ -430,7 +413,7 @@ async def test_a_second_login_may_take_over(study: Study) -> None:
     await other.stdout.readline()
     async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
         await until(pilot, Question)
-        assert study.texts.words.busy.title in shown(pilot)
+        assert study.texts.words.busy.title in painted(pilot.app.screen)
         await pilot.press("n")
         await closed(pilot)
     assert other.returncode is None
