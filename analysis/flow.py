@@ -15,6 +15,8 @@ def flow_rows(recorded: Recorded, rules: Rules) -> list[Row]:
     """The steps from the first session to the analysed sample, with who left before each."""
     people = recorded.frame("participants")
     agreed = people[people["session_ending"] != "declined"]
+    placeless = int((agreed["session_ending"] == "turned_away").sum())
+    no_place = f", {placeless} found no place" if placeless else ""
     randomised = agreed[agreed["complexity"].notna()]
     finished = randomised[randomised["session_ending"] == "finished"]
     study = recorded.study()
@@ -22,8 +24,16 @@ def flow_rows(recorded: Recorded, rules: Rules) -> list[Row]:
     steps = [
         ("began a session", len(people), ""),
         ("agreed", len(agreed), f"{len(people) - len(agreed)} declined"),
-        ("were randomised", len(randomised), _left(agreed, randomised, "before allocation")),
-        ("finished both rounds", len(finished), _left(randomised, finished, "afterwards")),
+        (
+            "were randomised",
+            len(randomised),
+            _left(len(agreed) - placeless, len(randomised), "before allocation") + no_place,
+        ),
+        (
+            "finished both rounds",
+            len(finished),
+            _left(len(randomised), len(finished), "afterwards"),
+        ),
         (
             "are analysed",
             len(analysed.study.participants),
@@ -33,8 +43,8 @@ def flow_rows(recorded: Recorded, rules: Rules) -> list[Row]:
     return [{"step": step, "people": n, "note": note} for step, n, note in steps]
 
 
-def _left(before: pd.DataFrame, after: pd.DataFrame, when: str) -> str:
-    return f"{len(before) - len(after)} left {when}"
+def _left(before: int, after: int, when: str) -> str:
+    return f"{before - after} left {when}"
 
 
 def flow_figure(rows: list[Row], *, simulated: bool) -> Captioned:

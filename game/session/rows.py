@@ -72,7 +72,8 @@ class ParticipantRow(Row, frozen=True):
     simulated: _Simulated
     rescuer: Annotated[str, _("person, or the name of the simulated rescuer.")]
     session_ending: Annotated[
-        Literal["finished", "declined", "unfinished"], _("How the session ended, so far.")
+        Literal["finished", "declined", "turned_away", "unfinished"],
+        _("How the session ended, so far; turned_away: there was no place left."),
     ]
     last_phase: Annotated[Phase, _("The phase of the journal's last record but the ending.")]
     last_round: Annotated[int, _("The round of the last phase; 0 outside the rounds.")]

@@ -65,7 +65,7 @@ class Story:
     started_utc: str
     ended_utc: str
     torn_bytes: int
-    ending: Literal["finished", "declined", "unfinished"] = "unfinished"
+    ending: Literal["finished", "declined", "turned_away", "unfinished"] = "unfinished"
     last_step: Place = ("session", 0)
     consent_version: str | None = None
     allocated: Allocated | None = None
@@ -128,11 +128,11 @@ class Story:
             case PracticeChecked():
                 self.practice = record
             case Allocated():
-                self.allocated = record
+                self.allocated, self.ending = record, "unfinished"
             case PreferenceGiven():
                 self.preference = record
-            case SessionEnded(reason="finished"):
-                self.ending = "finished"
+            case SessionEnded(reason="finished" | "turned_away" as reason):
+                self.ending = reason
             case _:
                 pass
 

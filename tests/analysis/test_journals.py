@@ -166,6 +166,21 @@ def test_a_torn_and_unfinished_session_is_told(copy: Path) -> None:
     assert study.rounds.query("participant == 'S0001'")["preference"].isna().any()
 
 
+def test_who_found_no_place_has_not_left(copy: Path) -> None:
+    lines = journal(copy, "S0002").read_text().splitlines(keepends=True)
+    at = next(n for n, line in enumerate(lines) if '"type":"allocated"' in line)
+    ended = next(line for line in lines if '"type":"session_ended"' in line)
+    envelope, _, _ = lines[at].partition('"type"')
+    turned_away = envelope + '"type"' + ended.partition('"type"')[2]
+    turned_away = turned_away.replace('"finished"', '"turned_away"')
+    journal(copy, "S0002").write_text("".join(lines[:at]) + turned_away)
+    notes = {
+        row["step"]: row["note"]
+        for row in flow_rows(load_recorded(copy, check=False), load_rules())
+    }
+    assert notes["were randomised"] == "0 left before allocation, 1 found no place"
+
+
 def test_nobody_randomised(copy: Path) -> None:
     for name in ("S0001", "S0002", "S0003"):
         lines = journal(copy, name).read_text().splitlines(keepends=True)

@@ -234,6 +234,15 @@ def test_who_was_never_allocated_has_no_rounds() -> None:
     )
 
 
+def test_who_found_no_place_is_told_apart_until_there_is_one() -> None:
+    written = Written()
+    written.journal.enter("practice")
+    written.write(SessionEnded("turned_away"))
+    assert [person.session_ending for person in written.tables.participants] == ["turned_away"]
+    written.write(ALLOCATED)
+    assert [person.session_ending for person in written.tables.participants] == ["unfinished"]
+
+
 def test_a_round_without_allocation_is_refused() -> None:
     written = Written()
     written.journal.enter("memorise", 1)
