@@ -34,13 +34,13 @@ by anybody, whereas C3 asks for knowledge."""
 class Compliance:
     """The walk since an instruction was issued at `level` (the shown one).
 
-    `asked`, `least` and `distance` are the cost-to-go then, the smallest since and the present one,
-    `rising` whether the last action raised it; `warned_ms` is when a strict misstep was corrected
-    that counts, since an instruction was completed.
+    `most`, `least` and `distance` are the largest cost-to-go since, the smallest and the present
+    one, `rising` whether the last action raised it; `warned_ms` is when a strict misstep was
+    corrected that counts, since an instruction was completed.
     """
 
     level: Level
-    asked: int
+    most: int
     least: int
     distance: int
     rising: bool = False
@@ -56,7 +56,13 @@ class Compliance:
     def acted(self, distance: int) -> Compliance:
         """After a move, bump or turn that leaves `distance` cells to go."""
         rising = distance > self.distance
-        return replace(self, least=min(self.least, distance), distance=distance, rising=rising)
+        return replace(
+            self,
+            most=max(self.most, distance),
+            least=min(self.least, distance),
+            distance=distance,
+            rising=rising,
+        )
 
     @property
     def excess(self) -> int:
@@ -75,7 +81,7 @@ class Compliance:
     @property
     def heeded(self) -> bool:
         """Whether the rescuer clearly does what was asked: a notice may go."""
-        return self.asked - self.distance >= HEEDED_CELLS
+        return self.most - self.distance >= HEEDED_CELLS
 
     def corrected(self, at_ms: int) -> Compliance:
         """The misstep has been noted at `at_ms`. Those within `READING_MS` belong to it."""

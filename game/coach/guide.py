@@ -211,13 +211,23 @@ class Guide(ABC, Generic[State]):
     def _misleads(self, instruction: Instruction, pose: Pose, observation: Observation) -> bool:
         """Whether words that were meant for another pose no longer hold.
 
-        Those of C3 hold anywhere, and so does the approach to a victim that was found. Whoever goes
-        astray is left to turn back, until it is a misstep.
+        Those of C3 hold anywhere, but for those within the goal's room, which do not name it. The
+        approach to a victim that was found holds in its room. Whoever goes astray is left to turn
+        back, until it is a misstep.
         """
+        level = instruction.shown_level
+        if level is Level.C3:
+            return self._left_room(instruction, pose)
         if pose in self._track or self._compliance.rising:
             return False
-        level = instruction.shown_level
-        return level is Level.C1 or (level is Level.C2 and not self._approaching(observation))
+        return level is Level.C1 or not self._approaching(observation)
+
+    def _left_room(self, instruction: Instruction, pose: Pose) -> bool:
+        """Whether the rescuer was told the rest in the goal's room, and is not there any more."""
+        room_at = self._building.room_at
+        room = room_at(instruction.start.cell)
+        wanted = self._building.room_of(self._waiting[instruction.goal])
+        return room is not None and room is wanted and room_at(pose.cell) is not room
 
     def _approaching(self, observation: Observation) -> bool:
         instruction, room_at = self._instruction, self._building.room_at

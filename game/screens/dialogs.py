@@ -24,7 +24,7 @@ class Question(ModalScreen[bool]):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("y,Y", "answer(True)", id="question.yes"),
-        Binding("n,N,escape,q,ctrl+q,ctrl+c", "answer(False)", id="question.no"),
+        Binding("n,N,escape,q,Q,ctrl+q,ctrl+c", "answer(False)", id="question.no"),
     ]
 
     def __init__(self, title: str, text: str, *, yes: str = "Yes", no: str = "No") -> None:
@@ -47,7 +47,7 @@ class Notice(ModalScreen[None]):
     """Says something until a key closes it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("enter,escape,space,q", "close", id="notice.close"),
+        Binding("enter,escape,space,q,Q", "close", id="notice.close"),
         Binding("ctrl+q,ctrl+c", "close", id="notice.close.ctrl"),
     ]
 
@@ -108,7 +108,7 @@ class Help(ModalScreen[None]):
     """The keys, over the mission."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("question_mark,escape,enter,q,space", "close", id="help.close"),
+        Binding("question_mark,escape,enter,q,Q,space", "close", id="help.close"),
         Binding("ctrl+q,ctrl+c", "close", id="help.close.ctrl"),
     ]
 

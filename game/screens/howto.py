@@ -122,7 +122,7 @@ class HowToScreen(Screen[None]):
     """The page as a screen of its own."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape,q,enter,question_mark", "app.pop_screen", "Back", id="howto.back"),
+        Binding("escape,q,Q,enter,question_mark", "app.pop_screen", "Back", id="howto.back"),
     ]
 
     def compose(self) -> ComposeResult:

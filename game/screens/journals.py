@@ -77,7 +77,7 @@ class JournalsScreen(Screen[Path]):
         Binding("up,k", "move(-1)", id="journals.up"),
         Binding("down,j", "move(1)", id="journals.down"),
         Binding("enter,space", "choose", id="journals.choose"),
-        Binding("escape,q,ctrl+q,ctrl+c", "dismiss", id="journals.back"),
+        Binding("escape,q,Q,ctrl+q,ctrl+c", "dismiss", id="journals.back"),
     ]
 
     def __init__(self, journals: Sequence[Path]) -> None:

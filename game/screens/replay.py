@@ -108,15 +108,15 @@ class ReplayScreen(Screen[None]):
             self.number = number
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("space,p", "play", "Play or stop", id="replay.play"),
+        Binding("space,p,P", "play", "Play or stop", id="replay.play"),
         Binding("right,l", "jump(1)", "5 s on", id="replay.on"),
         Binding("left,h", "jump(-1)", "5 s back", id="replay.back"),
         Binding("home,0", "seek(0)", "Start", id="replay.start"),
         Binding("end,G", "seek(1)", "End", id="replay.end"),
         Binding("up,plus,equals_sign,k", "speed(1)", "Faster", id="replay.faster"),
         Binding("down,minus,j", "speed(-1)", "Slower", id="replay.slower"),
-        Binding("n,full_stop", "event(1)", "Next event", id="replay.next"),
-        Binding("b,comma", "event(-1)", "Event before", id="replay.before"),
+        Binding("n,N,full_stop", "event(1)", "Next event", id="replay.next"),
+        Binding("b,B,comma", "event(-1)", "Event before", id="replay.before"),
         Binding("right_square_bracket", "mission(1)", "Next mission", id="replay.mission.next"),
         Binding("left_square_bracket", "mission(-1)", "Mission before", id="replay.mission.before"),
         Binding("escape,q,Q,ctrl+q,ctrl+c", "leave", "Leave", id="replay.leave"),

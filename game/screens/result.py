@@ -192,9 +192,9 @@ class ResultScreen(Screen[None]):
             self.journal = journal
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("enter,a", "want('again')", "Play again", id="result.again"),
-        Binding("r", "want('replay')", "Replay this", id="result.replay"),
-        Binding("escape,q,h", "want('home')", "Home", id="result.home"),
+        Binding("enter,a,A", "want('again')", "Play again", id="result.again"),
+        Binding("r,R", "want('replay')", "Replay this", id="result.replay"),
+        Binding("escape,q,Q,h,H", "want('home')", "Home", id="result.home"),
     ]
 
     def __init__(self, story: Story, journal: Path) -> None:

@@ -86,7 +86,7 @@ class StatusApp(App[None], inherit_bindings=False):
     CSS_PATH: ClassVar[list[str | PurePath]] = ["styles/base.tcss", "styles/pages.tcss"]
     ENABLE_COMMAND_PALETTE = False
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("q,escape,ctrl+c,ctrl+q", "quit", id="status.leave"),
+        Binding("q,Q,escape,ctrl+c,ctrl+q", "quit", id="status.leave"),
     ]
 
     def __init__(self, folder: Path) -> None:

@@ -31,7 +31,7 @@ class WatchScreen(LiveScreen):
         Binding("space", "pause", "Pause", id="watch.pause"),
         Binding("up,plus,equals_sign", "speed(1)", "Faster", id="watch.faster"),
         Binding("down,minus", "speed(-1)", "Slower", id="watch.slower"),
-        Binding("c", "coach", "Coach's panel", id="watch.coach"),
+        Binding("c,C", "coach", "Coach's panel", id="watch.coach"),
     ]
 
     def __init__(

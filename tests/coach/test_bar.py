@@ -77,6 +77,15 @@ def test_words_at_c2_are_for_a_heading_until_the_victim_is_found() -> None:
     assert not only(InstructionIssued, game.act(N, S))
 
 
+def test_at_c3_the_room_is_named_again_to_whoever_has_left_it() -> None:
+    game = Game(STATIC[2])
+    settle(game, E, N, N)
+    assert game.coach.guidance.text == "Triage the blue victim."
+    issued = only(InstructionIssued, game.act(S, S))
+    assert [record.reason for record in issued] == ["off_path"]
+    assert game.coach.guidance.text == "Go to the Archive. Triage the blue victim."
+
+
 def test_the_next_words_know_who_is_rescued() -> None:
     game = Game(STATIC[0])
     settle(game, E, N, N)

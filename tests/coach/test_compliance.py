@@ -114,6 +114,13 @@ def test_a_correction_is_heeded_after_some_cells_the_right_way() -> None:
     assert [state.heeded for state in states] == [n >= HEEDED_CELLS for n in range(10)]
 
 
+def test_steps_astray_after_a_correction_do_not_keep_it_up() -> None:
+    astray = [20, 21, 22, 23, 24]
+    states = walk(Level.C3, [*astray, *range(23, 15, -1)])
+    turned_back = states[len(astray) :]
+    assert [state.heeded for state in turned_back] == [n >= HEEDED_CELLS for n in range(1, 9)]
+
+
 def test_the_track_has_the_poses_that_carrying_out_passes_and_no_others() -> None:
     path: list[Cell] = [(4, 4), (5, 4), (5, 5)]
     turning = straight(path, Heading.WEST, Heading.SOUTH)
