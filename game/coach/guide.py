@@ -190,7 +190,7 @@ class Guide(ABC, Generic[State]):
             return records + self._give_up(at_ms, pose, "too_late")
         if event.action is Action.TRIAGE:
             return records + self._follow_level(at_ms, pose)
-        distance = self._floodfills.distance(pose.cell, self._waiting[instruction.goal].cell)
+        distance = self._to_go(pose.cell, instruction.goal)
         self._nearest = min(self._nearest, distance)
         self._compliance = self._compliance.acted(distance)
         heeded = self._compliance.heeded and bool(self._guidance.notice)
@@ -308,7 +308,7 @@ class Guide(ABC, Generic[State]):
             self._guidance = Guidance("", notice)
             return [NothingLeft(at_ms, notice)]
         goal = self._route[0]
-        self._nearest = self._floodfills.distance(pose.cell, self._waiting[goal].cell)
+        self._nearest = self._to_go(pose.cell, goal)
         self._goal_set(goal, pose.cell)
         room = self._building.room_of(self._waiting[goal])
         name = room.name if room else None
@@ -327,12 +327,12 @@ class Guide(ABC, Generic[State]):
         if route.order:
             return route.order
         hopeful = [v for v in self._waiting if not self._hopeless(v, position, at_ms)]
-        hopeful.sort(key=lambda v: self._floodfills.distance(position, self._waiting[v].cell))
+        hopeful.sort(key=lambda v: self._to_go(position, v))
         return hopeful[:1]
 
     def _better_route(self, at_ms: int, position: Cell) -> Sequence[str] | None:
         """A route to another goal that is clearly better than to go on to this one."""
-        distance = self._floodfills.distance(position, self._waiting[self._route[0]].cell)
+        distance = self._to_go(position, self._route[0])
         if 2 * (distance - self._nearest) < STRAY_GAIN_MOVES:
             return None
         self._nearest, pace = distance, self.ms_per_move
@@ -344,12 +344,16 @@ class Guide(ABC, Generic[State]):
         kept = self._planner.along(self._route, position, at_ms, ms_per_move=pace)
         return best.order if best.saves(kept, STRAY_GAIN_MOVES * pace) else None
 
+    def _to_go(self, position: Cell, victim: str) -> int:
+        """D of a waiting victim's cell, in cells."""
+        return self._floodfills.distance(position, self._waiting[victim].cell)
+
     def _hopeless(self, victim: str, position: Cell, at_ms: int) -> bool:
         """Whether a red victim will expire before even the fastest keys could treat it."""
         site, settings = self._waiting[victim], self._settings
         if site.severity is Severity.BLUE:
             return False
-        moves = max(0, self._floodfills.distance(position, site.cell) - 1)
+        moves = max(0, self._to_go(position, victim) - 1)
         done_ms = at_ms + moves * settings.pace_ms + settings.treatment_ms(site.severity)
         return done_ms > settings.red_expiry_ms
 
@@ -368,7 +372,7 @@ class Guide(ABC, Generic[State]):
         self._number += 1
         self._carried_out = False
         self._track = track(instruction, self._settings.controls)
-        distance = self._floodfills.distance(pose.cell, self._waiting[goal].cell)
+        distance = self._to_go(pose.cell, goal)
         self._compliance = self._compliance.issued(instruction.shown_level, distance)
         self._guidance = Guidance(instruction.text, notice)
         issued = InstructionIssued(

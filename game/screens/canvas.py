@@ -95,8 +95,8 @@ def plain(rows: Iterable[Row]) -> list[str]:
 class Canvas(Widget):
     """A widget that shows rows. Styles are its component classes, so colours live in CSS.
 
-    It has margins, but no border and no padding, and so paints its rows in a third of the time
-    that a widget takes which may have them.
+    It has margins, but no border and no padding: its lines go to the screen as they are, and those
+    that stay the same are made once.
     """
 
     DEFAULT_CSS = "Canvas { height: auto; }"

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
+from contextlib import AbstractAsyncContextManager
 from typing import Any
 
+from textual import events
 from textual.pilot import Pilot
 from textual.screen import Screen
 
+from game.screens.app import AnaApp
+from game.screens.canvas import Canvas, plain
+
+Open = Callable[..., AbstractAsyncContextManager[tuple[AnaApp, Pilot[None]]]]
+"""The fixture `open_app`."""
 PATIENCE_S = 20.0
 _POLL_S = 0.02
 
@@ -26,3 +34,16 @@ def painted(screen: Screen[Any]) -> str:
     """All that stands in the window."""
     lines = screen._compositor.render_strips(screen.app.size)
     return "\n".join(strip.text for strip in lines)
+
+
+async def press(pilot: Pilot[None], *keys: str) -> None:
+    """Press keys as the terminal would send them: quicker than `pilot.press`."""
+    for key in keys:
+        character = " " if key == "space" else key if len(key) == 1 else None
+        pilot.app.post_message(events.Key(key, character))
+        await pilot.pause()
+
+
+def shown(screen: Screen[Any]) -> str:
+    """All that the canvases of a screen show."""
+    return "\n".join(line for canvas in screen.query(Canvas) for line in plain(canvas.rows))
