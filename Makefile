@@ -41,7 +41,7 @@ contract: $(VENV)/all.stamp  ## check which room may import which
 	@$(BIN)/lint-imports
 
 schema: $(VENV)/all.stamp  ## write the schema of journals from the types
-	@$(BIN)/python -m game.session.schema
+	@$(BIN)/python -m game.journal.schema
 
 COMPILE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 \
   --generate-hashes --no-header --no-annotate --no-emit-index-url --no-emit-find-links \

@@ -5,21 +5,25 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from analysis.absent import Absent, Plain, Row, Tree, attempt, plain
-from analysis.anova import EFFECTS, Effect, mixed_anova
-from analysis.assumptions import assumption_rows, hc3_rows
-from analysis.cellmodel import contrast_row, weights_of
-from analysis.clustering import Clustering
-from analysis.corrections import PValue, holm_by_name
-from analysis.equivalence import paired_row
-from analysis.exclusions import Rules, left_by, load_rules
-from analysis.figures import write_figures
-from analysis.groups import group_shares, grouped
-from analysis.journals import StudyMode, Tick
-from analysis.mixed import mixed_model
-from analysis.order_effects import order_rows
-from analysis.ordinal import ordinal_rows
-from analysis.posthoc import (
+from analysis.pages.figures import write_figures
+from analysis.report import summary
+from analysis.sources.absent import Absent, Plain, Row, Tree, attempt, plain
+from analysis.sources.exclusions import Rules, left_by, load_rules
+from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.sources.frames import Paired, Study, both_rounds, paired
+from analysis.sources.source import load_study
+from analysis.sources.study_folder import StudyMode, Tick
+from analysis.stats.anova import EFFECTS, Effect, mixed_anova
+from analysis.stats.assumptions import assumption_rows, hc3_rows
+from analysis.stats.cellmodel import contrast_row, weights_of
+from analysis.stats.clustering import Clustering
+from analysis.stats.corrections import PValue, holm_by_name
+from analysis.stats.equivalence import paired_row
+from analysis.stats.groups import group_shares, grouped
+from analysis.stats.mixed import mixed_model
+from analysis.stats.order_effects import order_rows
+from analysis.stats.ordinal import ordinal_rows
+from analysis.stats.posthoc import (
     RoundModels,
     adaptivity_marginal,
     cell_rows,
@@ -30,14 +34,10 @@ from analysis.posthoc import (
     marginal_means,
     simple_adaptivity_within_cell,
 )
-from analysis.power import power_rows
-from analysis.preferred import preferred_rows
-from analysis.reliability import alpha_rows
-from analysis.report import summary
-from analysis.sensitivity import continuous_rows, exclusion_rows
-from analysis.sources import load_study
-from analysis.tables import Paired, Study, both_rounds, paired
-from analysis.vocabulary import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.stats.power import power_rows
+from analysis.stats.preferred import preferred_rows
+from analysis.stats.reliability import alpha_rows
+from analysis.stats.sensitivity import continuous_rows, exclusion_rows
 
 #: Parts of an outcome that need the analysis cells.
 BY_CELL: Mapping[str, Callable[[RoundModels], Tree]] = {

@@ -9,8 +9,8 @@ from pathlib import Path
 import click
 
 from analysis.battery import analyse_source
-from analysis.journals import MODES, StudyMode
-from analysis.sources import holds_live_sessions
+from analysis.sources.source import holds_live_sessions
+from analysis.sources.study_folder import MODES, StudyMode
 from game.errors import AnaError
 
 Unblind = Callable[[Path], str]

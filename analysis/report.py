@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from analysis.absent import Plain
-from analysis.tables import Study
+from analysis.sources.absent import Plain
+from analysis.sources.frames import Study
 
 #: Comparisons are listed below this Holm-adjusted p.
 SIGNIFICANT = 0.05

@@ -16,14 +16,14 @@ from time import monotonic
 import click
 
 from analysis.battery import run_battery
-from analysis.exclusions import load_rules
 from analysis.execute import executed, html, notebooks, title, write
-from analysis.figures import write_figures
-from analysis.journals import read_study_folder
-from analysis.presets import POPULATIONS, PRESETS, Key, missions_of, write_missions
-from analysis.recorded import Recorded
-from analysis.style import SIMULATED
-from analysis.tidy import write_tables
+from analysis.pages.figures import write_figures
+from analysis.pages.preset_studies import POPULATIONS, PRESETS, Key, missions_of, write_missions
+from analysis.pages.style import SIMULATED
+from analysis.sources.exclusions import load_rules
+from analysis.sources.recorded import Recorded
+from analysis.sources.study_folder import read_study_folder
+from analysis.sources.tables_folder import write_tables
 
 PARTICIPANTS = 108
 #: Two blocks of the design, for each preset and kind of people.

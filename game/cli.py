@@ -24,25 +24,29 @@ STATUS_INTERRUPTED = 130
 @click.group(
     cls=LazyGroup,
     commands=[
-        LazyCommand("play", "game.commands.play:play", "Play a mission now."),
-        LazyCommand("watch", "game.commands.watch:watch", "Watch a simulated rescuer play."),
+        LazyCommand("play", "game.commands.ana_play:play", "Play a mission now."),
+        LazyCommand("watch", "game.commands.ana_watch:watch", "Watch a simulated rescuer play."),
         LazyCommand(
             "replay",
-            "game.commands.play:replay_journal",
+            "game.commands.ana_play:replay_journal",
             "Replay a mission with the coach's thoughts.",
         ),
         LazyCommand(
-            "verify", "game.commands.verify:command", "Prove that journals replay to the same."
+            "verify", "game.commands.ana_verify:command", "Prove that journals replay to the same."
         ),
         LazyCommand(
-            "building", "game.commands.building:group", "Check a building file, or show one."
+            "building", "game.commands.ana_building:group", "Check a building file, or show one."
         ),
-        LazyCommand("study", "game.commands.study:group", "Set up and run the experiment."),
-        LazyCommand("simulate", "game.commands.simulate:command", "Simulate a whole study."),
+        LazyCommand("study", "game.commands.ana_study:group", "Set up and run the experiment."),
+        LazyCommand("simulate", "game.commands.ana_simulate:command", "Simulate a whole study."),
         LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
-        LazyCommand("doctor", "game.commands.doctor:command", "Check that this terminal can play."),
         LazyCommand(
-            "completion", "game.commands.completion:command", "Print a shell's completion script."
+            "doctor", "game.commands.ana_doctor:command", "Check that this terminal can play."
+        ),
+        LazyCommand(
+            "completion",
+            "game.commands.ana_completion:command",
+            "Print a shell's completion script.",
         ),
     ],
     invoke_without_command=True,
@@ -54,7 +58,7 @@ def ana(ctx: click.Context) -> int | None:
     """A guided rescue mission with an adaptive coach, and the study around it."""
     if ctx.invoked_subcommand is not None:
         return None
-    from game.screens.app import run_home
+    from game.screens.play.app import run_home
 
     return run_home()
 

@@ -8,8 +8,8 @@ import pytest
 
 from game import places
 from game.cli import main
-from game.commands import doctor
-from game.commands.doctor import Check, KeyReading
+from game.commands import ana_doctor as doctor
+from game.commands.ana_doctor import Check, KeyReading
 
 UP = b"\x1b[A"
 

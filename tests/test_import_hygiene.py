@@ -11,10 +11,14 @@ from game.cli import ana
 from game.lazy import LazyCommand
 
 HEAVY = ("matplotlib", "numpy", "pandas", "pingouin", "scipy", "statsmodels", "tcod")
-ON_THE_WAY_TO_PLAY = ("game.cli", "game.commands.play", "game.screens.mission")
-LATER = ("game.rescuers", "game.study", "game.screens.result", "game.session.replay")
+ON_THE_WAY_TO_PLAY = ("game.cli", "game.commands.ana_play", "game.screens.play.mission_screen")
+LATER = ("game.rescuers", "game.study", "game.screens.play.result", "game.session.replay")
 """What a mission does not need for its first picture."""
-BEHIND_THE_OPENING = ("game.coach.coaches", "game.screens.mission", "game.session.journal")
+BEHIND_THE_OPENING = (
+    "game.coach.coaches",
+    "game.screens.play.mission_screen",
+    "game.journal.writer",
+)
 """What the line that opens the game does not wait for."""
 LAZY = [command for command in ana.commands.values() if isinstance(command, LazyCommand)]
 
@@ -33,7 +37,7 @@ def test_the_way_to_play_imports_nothing_heavy() -> None:
 
 
 def test_the_first_paint_waits_for_no_mission() -> None:
-    opening, mission = modules_after("game.commands.play"), modules_after(*ON_THE_WAY_TO_PLAY)
+    opening, mission = modules_after("game.commands.ana_play"), modules_after(*ON_THE_WAY_TO_PLAY)
     assert not opening.intersection(BEHIND_THE_OPENING)
     assert not mission.isdisjoint(BEHIND_THE_OPENING)
 

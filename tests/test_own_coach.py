@@ -11,8 +11,8 @@ from game.coach.spec import parse_coach
 from game.errors import AnaError
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
-from game.session.play import start_in_memory
-from game.session.verify import verify
+from game.session.playing import start_in_memory
+from game.session.verification import verify
 from game.world import load_building
 from game.world.settings import MissionSettings
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from game.cli import main
-from game.commands.play import assigned, options_of
+from game.commands.ana_play import assigned, options_of
 from game.errors import AnaError
 from game.world.settings import MissionSettings
 

@@ -14,11 +14,11 @@ import pytest
 
 from game.cli import main
 from game.errors import AnaError
+from game.journal.reader import read_journal
+from game.journal.records import Allocated, QuizSubmitted, SessionEnded
 from game.rescuers.person import POPULATIONS, Population
-from game.session.reader import read_journal
-from game.session.records import Allocated, QuizSubmitted, SessionEnded
-from game.session.verify import verify
-from game.simulation.study import Workers, names, simulate
+from game.session.verification import verify
+from game.simulation.simulated_study import Workers, names, simulate
 from game.simulation.workers import Journals, SchedulerError, here, on_cluster, on_cores
 from game.study.design import design_cell
 from game.study.folder import Study, open_study

@@ -12,8 +12,8 @@ from typing import get_args
 
 import pytest
 
+from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, instruct, lower
-from game.coach.records import Level
 from game.world import library
 from game.world.building import Building
 from game.world.floodfill import Floodfills

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from game.coach.records import CoachRecord
+from game.coach.acts import CoachRecord
 from game.world.building import Building
 from game.world.events import MissionEvent
 from game.world.observation import Guidance, Observation

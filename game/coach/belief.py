@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log2
 
-from game.coach.records import BeliefChanged
+from game.coach.acts import BeliefChanged
 from game.world.building import Building
 from game.world.events import Acted, Action, Expired, MissionEvent, Rescued
 from game.world.geometry import Cell, Heading

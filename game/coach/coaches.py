@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
+from game.coach.acts import CoachRecord, Level, LevelChanged, PaceLearned
 from game.coach.api import Briefing
 from game.coach.comprehension import (
     ComprehensionLearner,
@@ -12,12 +13,11 @@ from game.coach.comprehension import (
     evaluation_record,
 )
 from game.coach.cycle import Alpha
-from game.coach.guide import Guide, Occasion, floodfills_of
+from game.coach.guide import Guide, Occasion
 from game.coach.levels import LevelState
 from game.coach.model import Component, HumanModel, Learned
 from game.coach.pace import PaceLearner
 from game.coach.presets import Preset
-from game.coach.records import CoachRecord, Level, LevelChanged, PaceLearned
 from game.world.events import MissionEvent
 from game.world.geometry import Cell
 from game.world.observation import Observation
@@ -70,7 +70,7 @@ class AdaptiveCoach(Guide[LevelState]):
         building = briefing.building
         self._preset = preset
         self._next_evaluation_ms = preset.every_ms
-        self._learner = ComprehensionLearner(preset, building, floodfills_of(building.plan))
+        self._learner = ComprehensionLearner(preset, building, building.terrain.floodfills)
         super().__init__(
             briefing, self._learner, ThresholdInfluence(preset), LevelState.first(preset)
         )

@@ -10,8 +10,8 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene
-from game.coach.records import Level
 from game.world.geometry import Cell, Heading
 from game.world.settings import Controls
 

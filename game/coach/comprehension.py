@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from game.coach.acts import PosteriorEvaluated
 from game.coach.cycle import Alpha
 from game.coach.goal_filter import GoalFilter, StepTable
 from game.coach.goals import Likelihood, instructed_prior, uniform_prior
 from game.coach.levels import LevelState, verdict
 from game.coach.model import Component, Comprehension, HumanModel, Learned
 from game.coach.presets import Preset
-from game.coach.records import PosteriorEvaluated
 from game.world.building import Building, Room
 from game.world.events import Acted, Expired, MissionEvent, Rescued
 from game.world.floodfill import Floodfills

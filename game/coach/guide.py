@@ -5,17 +5,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Generic, Literal, TypeVar
 
-from game.coach.api import Briefing
-from game.coach.belief import Belief, belief_change
-from game.coach.compliance import NOTHING_ASKED, STRICT_LEVELS, fits, reached, track
-from game.coach.cycle import AdaptiveCycle, InfluenceProcess, LearningProcess
-from game.coach.instructions import Instruction, Pose, Scene, correction, instruct
-from game.coach.instructions.corrections import WRONG_WAY
-from game.coach.model import HumanModel
-from game.coach.records import (
+from game.coach.acts import (
     CoachRecord,
     Disobeyed,
     GoalSet,
@@ -26,6 +18,13 @@ from game.coach.records import (
     NothingLeft,
     NoticeTakenDown,
 )
+from game.coach.api import Briefing
+from game.coach.belief import Belief, belief_change
+from game.coach.compliance import NOTHING_ASKED, STRICT_LEVELS, fits, reached, track
+from game.coach.cycle import AdaptiveCycle, InfluenceProcess, LearningProcess
+from game.coach.instructions import Instruction, Pose, Scene, correction, instruct
+from game.coach.instructions.notices import WRONG_WAY
+from game.coach.model import HumanModel
 from game.coach.route import RoutePlanner
 from game.world.building import Severity, VictimSite
 from game.world.events import (
@@ -38,10 +37,8 @@ from game.world.events import (
     TreatmentBroken,
     TreatmentStarted,
 )
-from game.world.floodfill import Floodfills
 from game.world.geometry import Cell
 from game.world.observation import Guidance, Observation
-from game.world.plan import Plan
 
 _IssueReason = Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"]
 _GoalReason = Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
@@ -67,12 +64,6 @@ Occasion = Literal["step", "instruction", "every"]
 misstep made; when its time has come."""
 
 
-@lru_cache(maxsize=8)
-def floodfills_of(plan: Plan) -> Floodfills:
-    """The floodfills that all missions in one building share."""
-    return Floodfills(plan)
-
-
 class Guide(ABC, Generic[State]):
     """A coach that leads from victim to victim along a route, by an adaptive cycle.
 
@@ -88,7 +79,7 @@ class Guide(ABC, Generic[State]):
         state: State,
     ) -> None:
         self._building, self._settings = briefing.building, briefing.settings
-        self._floodfills = floodfills_of(self._building.plan)
+        self._floodfills = self._building.terrain.floodfills
         self._waiting = {site.id: site for site in self._building.victims}
         self._planner = RoutePlanner(
             self._floodfills, self._settings, self._waiting, seed=briefing.seed

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from game.coach.acts import Level
 from game.coach.presets import Preset
-from game.coach.records import Level
 
 Verdict = Literal["lower", "keep", "raise"]
 

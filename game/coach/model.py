@@ -14,7 +14,7 @@ from game.world.events import Action, MissionEvent
 from game.world.floodfill import Floodfills
 from game.world.observation import Observation
 from game.world.settings import MissionSettings
-from game.world.sight import Sight, sight_in
+from game.world.sight import Sight
 
 
 class Component(Enum):
@@ -129,7 +129,7 @@ class HumanModel:
             transition=Transition(building.plan),
             reward=Reward(),
             observations=Observations(),
-            observation_function=sight_in(building.plan, settings.sight_radius),
+            observation_function=building.terrain.sight(settings.sight_radius),
             belief=BeliefEstimate(start),
             floodfills=floodfills,
         )

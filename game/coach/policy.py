@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from math import exp
 from typing import Protocol
 
+from game.coach.acts import Level
 from game.coach.belief import Belief
-from game.coach.records import Level
 from game.world.events import Action
 from game.world.floodfill import UNREACHABLE, Floodfills
 from game.world.geometry import Cell, Heading

@@ -12,8 +12,8 @@ from typing import Literal
 
 import msgspec
 
+from game.coach.acts import Level
 from game.coach.goals import MAX_BETA, Likelihood
-from game.coach.records import Level
 
 
 class Preset(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

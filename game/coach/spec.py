@@ -10,10 +10,10 @@ from typing import Literal, get_args
 
 import msgspec
 
+from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
 from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
-from game.coach.records import Level
 from game.errors import AnaError
 
 CoachKind = Literal["static", "ana", "pace", "own"]

@@ -20,7 +20,7 @@ from game.errors import AnaError
 
 if TYPE_CHECKING:
     from game.study.ledger import Mode
-    from game.study.status import ExclusionRule
+    from game.study.overview import ExclusionRule
     from game.study.texts import Login
 
 _FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
@@ -38,13 +38,13 @@ _UNBLINDED = "The study is open: the ledger records that it was unblinded."
 )
 def status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> int:
     """Show who is where in the study DIR. Reads only, and tells nobody's allocation."""
-    from game.study.status import StatusReader, breakdown
+    from game.study.overview import StatusReader, breakdown
     from game.study.statustext import page
 
     if watch:
         if as_json or unblind:
             raise click.UsageError("--watch goes alone.")
-        from game.screens.study_status import watch_status
+        from game.screens.lab.status_screen import watch_status
 
         return watch_status(folder)
     now = StatusReader(folder).look()
@@ -197,7 +197,7 @@ def _ask_for_id(words: Login, refused: str) -> str:
 
 def _rules() -> tuple[ExclusionRule, ...]:
     """The analysis' rules of exclusion, which are data."""
-    from game.study.status import ExclusionRule
+    from game.study.overview import ExclusionRule
 
     text = resources.files("analysis").joinpath("exclusions.toml").read_text(encoding="utf-8")
     return msgspec.convert(tomllib.loads(text)["rule"], tuple[ExclusionRule, ...])

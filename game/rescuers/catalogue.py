@@ -10,7 +10,7 @@ from game.errors import AnaError
 from game.rescuers.driver import Rescuer
 from game.rescuers.literal import LiteralReader
 from game.rescuers.person import POPULATIONS, BoundedPerson, drawn, memorised
-from game.rescuers.person.chance import stream
+from game.rescuers.person.randomness import stream
 from game.world.building import Building
 from game.world.settings import MissionSettings
 

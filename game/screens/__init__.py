@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 
-from game.screens.terminal import colour_system
+from game.screens.widgets.terminal import colour_system
 
 os.environ["TEXTUAL_COLOR_SYSTEM"] = colour_system(os.environ)
 os.environ.setdefault("TEXTUAL_FPS", "120")

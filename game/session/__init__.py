@@ -1,1 +1,1 @@
-"""A mission and a coach played together, the journal, replay and verification."""
+"""A mission and a coach played together, replayed, and verified."""

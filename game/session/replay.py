@@ -1,8 +1,8 @@
 """Replay: a recorded mission at any moment, forwards and backwards.
 
 The mission is played again from its recorded actions; what the coach did is taken from its
-records. So a journal can be replayed without the coach that made it; `game.session.verify` shows
-that the coach would do the same again.
+records. So a journal can be replayed without the coach that made it; verification shows that the
+coach would do the same again.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from collections.abc import Sequence
 from copy import deepcopy
 from typing import NamedTuple
 
-from game.coach.records import LevelChanged
-from game.session.errors import JournalError
-from game.session.missions import Happening, missions
-from game.session.reader import Transcript
-from game.session.run import RunRecord
-from game.session.thoughts import Thoughts
+from game.coach.acts import LevelChanged
+from game.journal.failures import JournalError
+from game.journal.missions import Happening, missions
+from game.journal.reader import Transcript
+from game.journal.records import RunRecord
+from game.journal.thoughts import Thoughts
 from game.world.events import Acted, Expired, Rescued
 from game.world.mission import Mission
 from game.world.observation import Observation

@@ -11,12 +11,11 @@ from contextlib import contextmanager
 from typing import NamedTuple
 
 from game.coach.api import Coach
-from game.coach.records import CoachRecord
+from game.journal.records import RunRecord
 from game.world.events import Action, MissionEvent
 from game.world.mission import Due, Mission, Order
 from game.world.observation import Observation
 
-RunRecord = MissionEvent | CoachRecord
 Recorder = Callable[[Sequence[RunRecord]], None]
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from game.errors import AnaError
 from game.rescuers.person import Population
-from game.simulation.session import play_session
+from game.simulation.simulated_session import play_session
 from game.study.folder import Study
 from game.study.ledger import SlotTaken
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from game.session.records import PreferenceGiven, QuestionnaireAnswer, QuizAnswer, Record
+from game.journal.records import PreferenceGiven, QuestionnaireAnswer, QuizAnswer, Record
 from game.study.protocol import Step
 from game.world.events import Rescued
 

@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Literal, Protocol
 
 from game.coach.spec import CoachSpec
-from game.session.records import (
+from game.journal.records import (
     Allocated,
     Consented,
     Debriefed,
@@ -29,8 +29,8 @@ from game.study.chance import shuffled
 from game.study.ledger import NoPlace
 from game.study.practice import Leg, leg_building, leg_settings, leg_start, legs
 from game.study.protocol import ROUNDS, Point, Step, next_point
-from game.study.session import StudySession
-from game.study.settings import ScreenSize
+from game.study.study_session import StudySession
+from game.study.study_settings import ScreenSize
 from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
 from game.world.building import Building, Severity

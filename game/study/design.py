@@ -12,7 +12,7 @@ from itertools import product
 
 import msgspec
 
-from game.coach.records import Level
+from game.coach.acts import Level
 from game.study.chance import digest, shuffled
 
 HALF_BLOCK = 12

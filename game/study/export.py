@@ -17,12 +17,9 @@ from pathlib import Path
 import msgspec
 
 from game import __version__
-from game.session.gather import transcripts
-from game.session.play import JOURNAL
-from game.session.reader import Transcript, read_file
-from game.session.rows import Row
-from game.session.sink import make_folders
-from game.session.tables import ROW_TYPES, Tables, combined, session_tables
+from game.journal.folders import JOURNAL, transcripts
+from game.journal.reader import Transcript, read_file
+from game.journal.sink import make_folders
 from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, StudyError
 from game.study.ledger import Ledger, Mode, ending_of, is_closed
 from game.study.psychds import (
@@ -35,7 +32,9 @@ from game.study.psychds import (
     file_name,
     table_text,
 )
-from game.study.settings import read_settings
+from game.study.study_settings import read_settings
+from game.tables.rows import Row
+from game.tables.session_tables import ROW_TYPES, Tables, combined, session_tables
 
 DATASET = "dataset.toml"
 """Where a lab may put its `DatasetNotes`, in the study folder."""

@@ -17,9 +17,9 @@ from typing import NamedTuple
 
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError
-from game.session.gather import SESSIONS
-from game.session.records import StudyCopy
-from game.session.sink import make_folders
+from game.journal.folders import SESSIONS
+from game.journal.records import StudyCopy
+from game.journal.sink import make_folders
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -30,7 +30,7 @@ from game.study.ledger import (
     agreement,
     utc_now,
 )
-from game.study.settings import ScreenSize, SettingsError, StudySettings, read_settings
+from game.study.study_settings import ScreenSize, SettingsError, StudySettings, read_settings
 from game.study.texts import Items, Texts, read_items, read_texts
 from game.world import load_building
 from game.world.building import Building

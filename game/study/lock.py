@@ -13,7 +13,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from game.session.sink import make_folders
+from game.journal.sink import make_folders
 from game.study.folder import StudyError
 
 LOCK = "lock"

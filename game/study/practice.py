@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from game.coach.records import Level
+from game.coach.acts import Level
 from game.coach.spec import CoachSpec
 from game.study.chance import shuffled
 from game.world.building import Building, VictimSite

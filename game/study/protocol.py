@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Literal, NamedTuple
 
-from game.session.records import (
+from game.journal.records import (
     Allocated,
     Declined,
     Envelope,
@@ -22,7 +22,7 @@ from game.session.records import (
     SessionEnded,
     Withdrawn,
 )
-from game.study.settings import StudySettings
+from game.study.study_settings import StudySettings
 
 ROUNDS = (1, 2)
 ROUND_PHASES: tuple[Phase, ...] = ("memorise", "label", "mission", "sliders", "likert")

@@ -17,8 +17,8 @@ from typing import Any
 
 import msgspec
 
-from game.session.columns import Column, cells, columns
-from game.session.rows import Row
+from game.tables.columns import Column, cells, columns
+from game.tables.rows import Row
 
 IGNORED = "data/raw/\n"
 IGNORE_FILES = (".psychds-ignore", ".psychdsignore")

@@ -13,9 +13,8 @@ from typing import Literal, get_args
 
 import msgspec
 
-from game.session.gather import SESSIONS
-from game.session.play import JOURNAL
-from game.session.records import (
+from game.journal.folders import JOURNAL, SESSIONS
+from game.journal.records import (
     Allocated,
     Declined,
     Envelope,
@@ -31,7 +30,7 @@ from game.session.records import (
 from game.study.folder import MODES, Identity
 from game.study.lock import is_held
 from game.study.protocol import Progress, Step
-from game.study.settings import StudySettings
+from game.study.study_settings import StudySettings
 
 State = Literal["taking part", "left", "cut off", "finished", "declined", "turned away"]
 """`left` went on purpose and may come back, `cut off` did not: its process is gone. `turned away`

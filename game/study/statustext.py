@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from game.study.overview import CellCount, StudyStatus, Totals
 from game.study.roll import SessionStatus
-from game.study.status import CellCount, StudyStatus, Totals
 
 HEADER = ("participant", "mode", "state", "phase", "clock", "last event", "broke in", "resumed")
 

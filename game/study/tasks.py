@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from game.coach.spec import CoachSpec
-from game.session.play import begin_mission, leave_mission
-from game.session.records import Exposed, QuestionnaireAnswer, QuizAnswer
+from game.journal.records import Exposed, QuestionnaireAnswer, QuizAnswer
+from game.session.playing import begin_mission, leave_mission
 from game.session.run import MissionRun
 from game.study.chance import number, shuffled
-from game.study.session import StudySession
+from game.study.study_session import StudySession
 from game.world.building import Building, Room
 from game.world.settings import MissionSettings
 

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from game.coach.records import Level
+from game.coach.acts import Level
 from game.errors import AnaError
 
 LIKERT_POINTS = 5

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 
-from game.session.sink import sync_folder
+from game.journal.sink import sync_folder
 from game.study.folder import Identity, Study, StudyError
 from game.study.lock import SessionLock
 

@@ -9,6 +9,7 @@ from hashlib import sha256
 
 from game.world.geometry import Cell, Heading
 from game.world.plan import Plan
+from game.world.terrain import Terrain
 
 
 class Severity(StrEnum):
@@ -69,6 +70,11 @@ class Building:
     def hash(self) -> str:
         """SHA-256 of the text, in hexadecimal."""
         return sha256(self.text.encode()).hexdigest()
+
+    @cached_property
+    def terrain(self) -> Terrain:
+        """What the plan alone implies, shared by all who use this building."""
+        return Terrain(self.plan)
 
     @cached_property
     def _room_of_cell(self) -> dict[Cell, Room]:

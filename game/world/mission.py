@@ -31,7 +31,6 @@ from game.world.observation import (
     VictimState,
 )
 from game.world.settings import MissionSettings
-from game.world.sight import sight_in
 
 COMPASS_ACTIONS = {
     Action.NORTH: Heading.NORTH,
@@ -80,7 +79,7 @@ class Mission:
         self._expiry_due = Due(settings.red_expiry_ms, Order.EXPIRY)
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
         self._site_at = {site.cell: site for site in building.victims}
-        self._sight = sight_in(building.plan, settings.sight_radius)
+        self._sight = building.terrain.sight(settings.sight_radius)
         self._treated: VictimSite | None = None
         self._treatment_start_ms = 0
         self._explored = 0

@@ -7,7 +7,7 @@ fractions, so that the result is the same on every machine.
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
+from functools import cache
 from itertools import product
 from math import lcm
 from typing import NamedTuple
@@ -30,12 +30,6 @@ class Sight:
         if field is None:
             field = self._fields[position] = field_of_view(self.plan, position, self.radius)
         return field
-
-
-@lru_cache(maxsize=8)
-def sight_in(plan: Plan, radius: int) -> Sight:
-    """The sight that all missions in one building share."""
-    return Sight(plan, radius)
 
 
 def field_of_view(plan: Plan, viewer: Cell, radius: int) -> int:

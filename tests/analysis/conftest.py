@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analysis.longcsv import read_long_csv
-from analysis.tables import Study
+from analysis.sources.frames import Study
+from analysis.sources.longcsv import read_long_csv
 
 GROUPS = ("LOW", "MED", "HIGH")
 LEVELS = ("C1", "C2", "C3")

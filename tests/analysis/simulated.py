@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from game.rescuers.person import POPULATIONS
-from game.simulation.study import simulate
+from game.simulation.simulated_study import simulate
 from game.simulation.workers import here
 from game.study.folder import new_study
 

@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analysis.absent import Absent, SourceError, plain
 from analysis.battery import BatteryResult, analyse_source, run_battery
-from analysis.exclusions import load_rules
-from analysis.figures import fig8_performance
-from analysis.tables import Study
-from analysis.vocabulary import LIKERT_ITEMS, MENTAL_STATES, OUTCOMES
+from analysis.pages.figures import fig8_performance
+from analysis.sources.absent import Absent, SourceError, plain
+from analysis.sources.exclusions import load_rules
+from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES, OUTCOMES
+from analysis.sources.frames import Study
 
 ReadTable = Callable[..., Study]
 MakeTable = Callable[..., pd.DataFrame]

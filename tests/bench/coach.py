@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from random import Random
 from statistics import quantiles
 
+from game.coach.acts import CoachRecord, GoalSet
 from game.coach.api import Briefing, Coach
-from game.coach.records import CoachRecord, GoalSet
 from game.coach.route import RoutePlanner
 from game.coach.spec import CoachSpec, build_coach, parse_coach
-from game.commands.play import DEFAULT_BUILDING, assigned
+from game.commands.ana_play import DEFAULT_BUILDING, assigned
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
-from game.session.play import CoachBuilder, start_in_memory
+from game.session.playing import CoachBuilder, start_in_memory
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Action, MissionEvent

@@ -17,9 +17,9 @@ from game.coach.spec import CoachSpec, parse_coach
 from game.rescuers.driver import Rescuer, drive
 from game.rescuers.literal import LiteralReader
 from game.rescuers.person import POPULATIONS, BoundedPerson, MapMemory, drawn
-from game.rescuers.person.chance import stream
 from game.rescuers.person.memory import nothing_memorised
-from game.session.play import start_in_memory
+from game.rescuers.person.randomness import stream
+from game.session.playing import start_in_memory
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import MissionSettings

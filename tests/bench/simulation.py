@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from game.rescuers.person import POPULATIONS
-from game.simulation.study import simulate
+from game.simulation.simulated_study import simulate
 from game.simulation.workers import here
 
 SESSIONS = 6

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from game.coach.api import Briefing
-from game.coach.records import (
+from game.coach.acts import (
     Disobeyed,
     GoalSet,
     InstructionCompleted,
@@ -17,8 +16,10 @@ from game.coach.records import (
     Misstep,
     NothingLeft,
 )
+from game.coach.api import Briefing
 from game.coach.spec import CoachSpec, build_coach
-from game.session.run import MissionRun, RunRecord
+from game.journal.records import RunRecord
+from game.session.run import MissionRun
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Action, Expired, Rescued

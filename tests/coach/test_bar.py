@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from game.coach.records import (
+from game.coach.acts import (
     BeliefChanged,
     GoalSet,
     InstructionCompleted,

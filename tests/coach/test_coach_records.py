@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from game.coach.records import Disobeyed, InstructionIssued, Misstep
+from game.coach.acts import Disobeyed, InstructionIssued, Misstep
 from game.coach.spec import CoachSpec
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader

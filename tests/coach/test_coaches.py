@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from game.coach.coaches import PaceCoach
-from game.coach.records import (
+from game.coach.acts import (
     GoalSet,
     InstructionCompleted,
     InstructionIssued,
@@ -13,6 +12,7 @@ from game.coach.records import (
     PaceLearned,
     PosteriorEvaluated,
 )
+from game.coach.coaches import PaceCoach
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.world import load_building

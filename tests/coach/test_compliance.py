@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.compliance import (
     HEEDED_CELLS,
     MISSTEP_EXCESS,
@@ -15,7 +16,6 @@ from game.coach.compliance import (
     track,
 )
 from game.coach.instructions import Instruction, Pose, Scene, instruct
-from game.coach.records import Level
 from game.world import load_building
 from game.world.building import Severity
 from game.world.floodfill import Floodfills

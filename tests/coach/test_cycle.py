@@ -7,6 +7,7 @@ from typing import Any, Literal
 import msgspec
 import pytest
 
+from game.coach.acts import Level
 from game.coach.comprehension import ComprehensionLearner, ThresholdInfluence, evaluation_record
 from game.coach.cycle import AdaptiveCycle, Alpha
 from game.coach.goals import goal_posterior, instructed_prior
@@ -14,7 +15,6 @@ from game.coach.levels import LevelState
 from game.coach.model import Component, Comprehension, HumanModel, Learned
 from game.coach.pace import WINDOW_INTERVALS, PaceLearner
 from game.coach.presets import CALIBRATED, LITERAL, RELEASED, Preset
-from game.coach.records import Level
 from game.world import load_building
 from game.world.events import Acted, Action, Expired, MissionEvent, Outcome, Rescued
 from game.world.floodfill import Floodfills

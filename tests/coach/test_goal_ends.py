@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from game.coach.guide import ALL_SAFE, NOBODY_IN_TIME, TOO_LATE
-from game.coach.records import (
+from game.coach.acts import (
     BeliefChanged,
     GoalSet,
     InstructionCompleted,
@@ -11,6 +10,7 @@ from game.coach.records import (
     NothingLeft,
     PosteriorEvaluated,
 )
+from game.coach.guide import ALL_SAFE, NOBODY_IN_TIME, TOO_LATE
 from game.world.events import Expired, TreatmentStarted
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.levels import LevelState, next_level
 from game.coach.presets import CALIBRATED, FIG10, LITERAL, PRESETS, RELEASED, Preset, preset
-from game.coach.records import Level
 
 VECTORS = Path(__file__).resolve().parents[2].parent / "shared" / "vectors" / "goal_inference.json"
 LEVELS = st.sampled_from(Level)

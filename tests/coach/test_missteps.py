@@ -6,10 +6,7 @@ from typing import Any
 
 import pytest
 
-from game.coach.compliance import HEEDED_CELLS
-from game.coach.guide import ANOTHER_FIRST
-from game.coach.instructions.corrections import WRONG_WAY
-from game.coach.records import (
+from game.coach.acts import (
     Disobeyed,
     GoalSet,
     InstructionCompleted,
@@ -17,6 +14,9 @@ from game.coach.records import (
     Level,
     Misstep,
 )
+from game.coach.compliance import HEEDED_CELLS
+from game.coach.guide import ANOTHER_FIRST
+from game.coach.instructions.notices import WRONG_WAY
 from game.coach.route import Route, RoutePlanner
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.belief import Belief
 from game.coach.goals import UNIT, log_factor, step_pattern
 from game.coach.instructions import Pose, Scene, instruct
@@ -20,7 +21,6 @@ from game.coach.model import (
     Observations,
     Reward,
 )
-from game.coach.records import Level
 from game.world import load_building
 from game.world.events import Action
 from game.world.floodfill import Floodfills

@@ -7,8 +7,9 @@ from typing import get_args
 
 import pytest
 
-from game.coach.records import InstructionIssued, Level
+from game.coach.acts import InstructionIssued, Level
 from game.coach.spec import CoachSpec
+from game.journal.records import RunRecord
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader, UnreadableInstruction
 from game.rescuers.literal.grammar import (
@@ -29,8 +30,7 @@ from game.rescuers.literal.grammar import (
     Walk,
     parse,
 )
-from game.session.play import assemble
-from game.session.run import RunRecord
+from game.session.playing import assemble
 from game.world.building import Severity
 from game.world.events import Action, Rescued
 from game.world.geometry import Cell, Heading

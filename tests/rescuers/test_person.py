@@ -11,21 +11,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from game.coach.records import CoachRecord, Disobeyed
+from game.coach.acts import CoachRecord, Disobeyed
 from game.coach.spec import CoachSpec, parse_coach
 from game.errors import AnaError
+from game.journal.records import RunRecord
 from game.rescuers.catalogue import RESCUERS, character
 from game.rescuers.driver import Wait, drive
 from game.rescuers.literal.grammar import parse
 from game.rescuers.person import POPULATIONS, BoundedPerson, MapMemory, Traits, drawn, memorised
-from game.rescuers.person.chance import normal, stream
 from game.rescuers.person.experience import Experience, Style, style_of
 from game.rescuers.person.hands import Hands
 from game.rescuers.person.memory import nothing_memorised
 from game.rescuers.person.quiz import labels
+from game.rescuers.person.randomness import normal, stream
 from game.rescuers.person.responses import Respondent, strain_of
-from game.session.play import assemble, start_in_memory
-from game.session.run import MissionRun, RunRecord
+from game.session.playing import assemble, start_in_memory
+from game.session.run import MissionRun
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Action, MissionEvent, Rescued

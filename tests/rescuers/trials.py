@@ -8,10 +8,10 @@ from itertools import accumulate
 from pathlib import Path
 from textwrap import wrap
 
+from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene
-from game.coach.records import Level
+from game.rescuers.literal.execution import Stuck, Walker
 from game.rescuers.literal.grammar import parse
-from game.rescuers.literal.walking import Stuck, Walker
 from game.world.building import Building, VictimSite
 from game.world.events import TreatmentStarted
 from game.world.floodfill import UNREACHABLE, Floodfills

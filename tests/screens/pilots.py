@@ -11,8 +11,8 @@ from textual import events
 from textual.pilot import Pilot
 from textual.screen import Screen
 
-from game.screens.app import AnaApp
-from game.screens.canvas import Canvas, plain
+from game.screens.play.app import AnaApp
+from game.screens.widgets.canvas import Canvas, plain
 
 Open = Callable[..., AbstractAsyncContextManager[tuple[AnaApp, Pilot[None]]]]
 """The fixture `open_app`."""

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.coach.records import PosteriorEvaluated
-from game.session.play import assemble
-from game.session.run import MissionRun, RunRecord
+from game.coach.acts import PosteriorEvaluated
+from game.journal.records import RunRecord
+from game.session.playing import assemble
+from game.session.run import MissionRun
 from game.world.events import Acted, Action, Expired, MissionEnded, Rescued
 from game.world.settings import MissionSettings
 from tests.session.toy import COMPASS, HUT, SETTINGS, SPEC, TURN, toy

@@ -6,15 +6,15 @@ from typing import get_args
 
 import pytest
 
+from game.coach.acts import CoachRecord, Level
 from game.coach.presets import PRESETS
-from game.coach.records import CoachRecord, Level
 from game.coach.spec import CoachSpec
-from game.session.clock import VirtualClock
-from game.session.journal import Journal
-from game.session.play import begin_mission, end_free_play
+from game.journal.clock import VirtualClock
+from game.journal.sink import MemorySink
+from game.journal.writer import Journal
+from game.session.playing import begin_mission, end_free_play
 from game.session.replay import Replay
-from game.session.sink import MemorySink
-from game.session.verify import verify_transcript
+from game.session.verification import verify_transcript
 from game.world import library
 from game.world.events import Action
 from game.world.observation import Observation

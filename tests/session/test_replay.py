@@ -6,12 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.coach.records import Level, LevelChanged
+from game.coach.acts import Level, LevelChanged
+from game.journal.failures import JournalError
+from game.journal.records import RunRecord
 from game.session import replay as replay_module
-from game.session.errors import JournalError
-from game.session.play import assemble
+from game.session.playing import assemble
 from game.session.replay import Replay
-from game.session.run import MissionRun, RunRecord
+from game.session.run import MissionRun
 from game.world.events import Acted, Expired, Rescued
 from game.world.observation import Observation
 from tests.session.toy import HUT, SETTINGS, SPEC, WALK, played, toy, transcript

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.session.journal import Journal
-from game.session.reader import Difference
-from game.session.verify import Verification, verify_files, verify_transcript
+from game.journal.reader import Difference
+from game.journal.writer import Journal
+from game.session.verification import Verification, verify_files, verify_transcript
 from game.world.events import Action
 from game.world.settings import MissionSettings
 from tests.session.toy import COMPASS, SETTINGS, TURN, played, toy, transcript, write

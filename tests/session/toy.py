@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from game.coach.api import Briefing
-from game.coach.records import (
+from game.coach.acts import (
     CoachRecord,
     GoalSet,
     InstructionIssued,
@@ -15,14 +14,15 @@ from game.coach.records import (
     LevelChanged,
     PosteriorEvaluated,
 )
+from game.coach.api import Briefing
 from game.coach.spec import CoachSpec
-from game.session.clock import VirtualClock
-from game.session.journal import Journal
-from game.session.play import begin_mission, end_free_play
-from game.session.reader import Transcript, parse_journal
-from game.session.records import SessionStarted, Versions
+from game.journal.clock import VirtualClock
+from game.journal.reader import Transcript, parse_journal
+from game.journal.records import SessionStarted, Versions
+from game.journal.sink import MemorySink
+from game.journal.writer import Journal
+from game.session.playing import begin_mission, end_free_play
 from game.session.run import MissionRun
-from game.session.sink import MemorySink
 from game.world.events import Acted, Action, Expired, MissionEvent, Outcome, Rescued
 from game.world.observation import Guidance, Observation
 from game.world.reading import parse_building

@@ -17,24 +17,24 @@ from time import monotonic
 
 import msgspec
 
-from game.coach.records import InstructionIssued
-from game.screens.study.choice import ChoiceScreen
-from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
-from game.screens.study.pages import PageScreen
-from game.screens.study.reason import ReasonScreen
-from game.screens.study.sliders import SlidersScreen
-from game.session.play import JOURNAL
-from game.session.records import (
+from game.coach.acts import InstructionIssued
+from game.journal.folders import JOURNAL
+from game.journal.records import (
     Allocated,
     Exposed,
     MissionAbandoned,
     MissionStarted,
     Record,
 )
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.pages import PageScreen
+from game.screens.study.reason import ReasonScreen
+from game.screens.study.sliders import SlidersScreen
 from game.study.folder import Identity, Study
 from game.study.practice import legs
-from game.study.session import CODE_LENGTH, CODE_LETTERS, session_seed
+from game.study.study_session import CODE_LENGTH, CODE_LETTERS, session_seed
 from game.world.building import Building, Room, VictimSite
 from game.world.events import Acted, Action, MissionEnded, Rescued
 from game.world.floodfill import cost_to_go

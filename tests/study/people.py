@@ -9,15 +9,15 @@ from typing import Literal
 
 import pytest
 
-from game.session.clock import VirtualClock
-from game.session.reader import Transcript, read_journal
-from game.session.records import PhaseStarted, Preflighted, Terminal
-from game.session.sink import FileSink, Sink
+from game.journal.clock import VirtualClock
+from game.journal.reader import Transcript, read_journal
+from game.journal.records import PhaseStarted, Preflighted, Terminal
+from game.journal.sink import FileSink, Sink
 from game.study.conduct import conduct
 from game.study.folder import Identity, Study, new_study, open_study
 from game.study.protocol import Step
-from game.study.session import open_session
-from game.study.settings import ScreenSize
+from game.study.study_session import open_session
+from game.study.study_settings import ScreenSize
 from game.study.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page
 from game.world.building import Building

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from game.coach.records import CoachRecord, InstructionIssued, Level
-from game.session.errors import JournalError
-from game.session.missions import missions, strays
-from game.session.reader import Entry
-from game.session.records import (
+from game.coach.acts import CoachRecord, InstructionIssued, Level
+from game.journal.failures import JournalError
+from game.journal.missions import missions, strays
+from game.journal.reader import Entry
+from game.journal.records import (
     Allocated,
     Consented,
     Debriefed,
@@ -35,8 +35,8 @@ from game.session.records import (
     SessionStarted,
     StudyAmended,
 )
-from game.session.sink import FileSink, MemorySink
-from game.session.verify import verify
+from game.journal.sink import FileSink, MemorySink
+from game.session.verification import verify
 from game.study.conduct import Stopped, instructor
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study

@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from analysis.longcsv import read_long_csv
-from game.commands.study import group
-from game.session.reader import read_journal
-from game.session.verify import verify
+from analysis.sources.longcsv import read_long_csv
+from game.commands.ana_study import group
+from game.journal.reader import read_journal
+from game.session.verification import verify
 from game.study.export import export_study, without_free_text
 from game.study.folder import Identity, Study, StudyError
 from game.study.ledger import Unblinded

@@ -11,9 +11,9 @@ from random import Random
 import pytest
 
 from game.errors import AnaError
-from game.session.clock import Reading, VirtualClock
-from game.session.reader import Entry
-from game.session.records import (
+from game.journal.clock import Reading, VirtualClock
+from game.journal.reader import Entry
+from game.journal.records import (
     Interruption,
     PhaseEnded,
     QuestionnaireAnswer,
@@ -21,7 +21,7 @@ from game.session.records import (
     Resumed,
     SessionEnded,
 )
-from game.session.verify import verify
+from game.session.verification import verify
 from game.study.folder import Study
 from game.study.ledger import LedgerError
 from game.study.protocol import TIMELINE, Step, next_point, progress

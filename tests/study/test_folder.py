@@ -19,7 +19,7 @@ from game.study.folder import (
 )
 from game.study.ledger import LedgerError, SettingsAmended, ending_of, slot_of
 from game.study.lock import SessionBusy, SessionLock
-from game.study.settings import SettingsError
+from game.study.study_settings import SettingsError
 from game.study.withdraw import withdraw
 from tests.study.people import P01, journal_of, small_study, take_part
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from game.session.records import PhaseEnded, PracticeChecked, SessionEnded
+from game.journal.records import PhaseEnded, PracticeChecked, SessionEnded
 from game.study.design import BLOCK
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study
 from game.study.ledger import ending_of, slot_of
-from game.study.status import StatusReader
+from game.study.overview import StatusReader
 from tests.study.people import cut_off, journal_of, small_study, take_part
 
 P05 = Identity("live", "P05")

@@ -7,7 +7,7 @@ from collections import Counter
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.coach.records import Level
+from game.coach.acts import Level
 from game.study.practice import LEGS, leg_building, leg_start, legs
 from game.world import load_building
 from game.world.geometry import Heading

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.session.records import (
+from game.journal.records import (
     Declined,
     Envelope,
     Exposed,
@@ -18,7 +18,7 @@ from game.session.records import (
     SessionEnded,
 )
 from game.study.protocol import TIMELINE, Point, Progress, Step, next_point, progress
-from game.study.settings import Interruption, StudySettings
+from game.study.study_settings import Interruption, StudySettings
 
 SETTINGS = StudySettings(
     name="test", seed=1, blocks=1, buildings=("one", "two"), practice_building="three"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from game.journal.records import PracticeChecked, SessionEnded
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.pages import PageScreen
-from game.session.records import PracticeChecked, SessionEnded
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study
 from game.study.ledger import ending_of

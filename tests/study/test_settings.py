@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from game.study.settings import SettingsError, read_settings
+from game.study.study_settings import SettingsError, read_settings
 from game.study.texts import LATER_TEXTS, TextsError, read_items, read_texts, shipped_texts
 
 TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"

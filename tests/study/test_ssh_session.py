@@ -13,9 +13,9 @@ from typing import TypeVar
 
 import pytest
 
-from game.session.play import JOURNAL
-from game.session.reader import Entry
-from game.session.records import (
+from game.journal.folders import JOURNAL
+from game.journal.reader import Entry
+from game.journal.records import (
     Allocated,
     Consented,
     Debriefed,
@@ -40,7 +40,7 @@ from game.study.ledger import SlotTaken, ending_of
 from game.study.lock import SessionBusy, SessionLock
 from game.study.practice import LEGS, legs
 from game.study.protocol import ROUNDS, TIMELINE, Step
-from game.study.session import session_seed
+from game.study.study_session import session_seed
 from game.world.events import Acted, Action, MissionEnded, Rescued
 from tests.study.participant import PATIENCE_S, TerminalParticipant
 from tests.study.people import journal_of, small_study

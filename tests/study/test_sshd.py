@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from game.session.records import Preflighted, TakenOver
+from game.journal.records import Preflighted, TakenOver
 from game.study.folder import Identity, Study, StudyError
 from game.study.sshd import LoopbackServer, configuration, who_logs_in
 from tests.study.participant import TerminalParticipant

@@ -11,16 +11,16 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from game.commands.study import group
-from game.session.play import JOURNAL
-from game.session.reader import read_journal
+from game.commands.ana_study import group
+from game.journal.folders import JOURNAL
+from game.journal.reader import read_journal
 from game.study.design import design_cell
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, StudyError, open_study
 from game.study.ledger import NoPlace, Unblinded
 from game.study.lock import LOCK, SessionLock
+from game.study.overview import ExclusionRule, StatusReader, breakdown
 from game.study.roll import Roll, SessionStatus
-from game.study.status import ExclusionRule, StatusReader, breakdown
 from game.study.statustext import age
 from game.study.withdraw import withdraw
 from tests.study.people import cut_off, small_study, take_part

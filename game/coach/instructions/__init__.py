@@ -1,6 +1,6 @@
 """What the coach says, at three levels of abstraction (paper 5.1.2)."""
 
-from game.coach.instructions.corrections import correction
+from game.coach.instructions.notices import correction
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.transformation import instruct, lower, raise_
 

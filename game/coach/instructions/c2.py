@@ -5,12 +5,12 @@ Of the best way through the graph of what C2 can say, the first tuples are shown
 
 from __future__ import annotations
 
+from game.coach.acts import Level
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.search import MOST_DETOUR, guide
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import Tuple
 from game.coach.instructions.way import legs
-from game.coach.records import Level
 from game.world.geometry import Cell
 
 MOST_TUPLES = 3

@@ -16,7 +16,6 @@ from game.coach.instructions.vocabulary import MOST_COUNTED, Tuple
 from game.world.building import Building, Room
 from game.world.geometry import Cell, Heading
 from game.world.plan import Tile
-from game.world.sight import sight_in
 
 ABREAST = 5
 """How far to the side a walker looks for doors and openings, in cells (at most the sight)."""
@@ -65,7 +64,7 @@ class Landmarks:
 
     def __init__(self, building: Building, sight_radius: int) -> None:
         self.building = building
-        self.sight = sight_in(building.plan, sight_radius)
+        self.sight = building.terrain.sight(sight_radius)
         self.strides = (-building.plan.width, 1, building.plan.width, -1)
         self._reach = min(ABREAST, sight_radius)
         self._tiles = building.plan.tiles

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+from game.coach.acts import Level
 from game.coach.instructions.vocabulary import Tuples
-from game.coach.records import Level
 from game.world.building import Building, Room, VictimSite
 from game.world.floodfill import UNREACHABLE, Floodfill, Floodfills
 from game.world.geometry import Cell, Heading

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from game.coach.acts import Level
 from game.coach.instructions.vocabulary import ORDINALS, Tuple, Tuples, belongs
-from game.coach.records import Level
 
 
 def render(level: Level, tuples: Tuples) -> str:

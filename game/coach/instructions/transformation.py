@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from game.coach.acts import Level
 from game.coach.instructions import c1, c2, c3
 from game.coach.instructions.scene import Instruction, Pose, Scene
-from game.coach.records import Level
 
 
 def instruct(scene: Scene, pose: Pose, goal: str, level: Level) -> Instruction:

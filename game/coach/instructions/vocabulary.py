@@ -7,7 +7,7 @@ words: a number where one is needed, a thing, and at C2 the side on which the wa
 
 from __future__ import annotations
 
-from game.coach.records import Level
+from game.coach.acts import Level
 from game.world.building import Severity
 
 Tuple = tuple[str, str]

@@ -7,8 +7,8 @@ from functools import lru_cache
 from math import exp
 from random import Random
 
-from game.rescuers.person.chance import normal
 from game.rescuers.person.parameters import Traits
+from game.rescuers.person.randomness import normal
 from game.world.building import Building
 from game.world.floodfill import UNREACHABLE, Floodfills
 from game.world.geometry import Cell

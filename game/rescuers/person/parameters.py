@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 
-from game.rescuers.person.chance import clipped, normal, stream
+from game.rescuers.person.randomness import clipped, normal, stream
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ from random import Random
 
 from game.rescuers.driver import Wait
 from game.rescuers.literal import looking
+from game.rescuers.literal.execution import Doing, Stuck
 from game.rescuers.literal.grammar import GoTo, ProceedTo, Sentence, TakeDoor, Turn, parse
-from game.rescuers.literal.walking import Doing, Stuck
 from game.rescuers.person.experience import Experience, style_of
 from game.rescuers.person.hands import Hands
 from game.rescuers.person.memory import MapMemory
 from game.rescuers.person.parameters import Traits
-from game.rescuers.person.walking import BoundedWalker, Search
+from game.rescuers.person.wayfinding import BoundedWalker, Search
 from game.world.building import Severity
 from game.world.events import Action
 from game.world.geometry import Cell, Heading

@@ -13,9 +13,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from game.rescuers.person.chance import clipped, normal, stream
 from game.rescuers.person.experience import Experience, Style
 from game.rescuers.person.parameters import Population, Traits
+from game.rescuers.person.randomness import clipped, normal, stream
 
 DEMAND: dict[Style, float] = {1: 0.2, 2: 0.55, 3: 0.9}
 """The knowledge at which each way of talking is right: LOW for C1, MED for C2, HIGH for C3."""

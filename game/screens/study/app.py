@@ -15,20 +15,20 @@ from textual.geometry import Size
 from textual.screen import Screen
 
 from game.errors import AnaError
-from game.screens.dialogs import Question
-from game.screens.mission import Failed, Finished
-from game.screens.signals import lead_out
+from game.screens.play.mission_screen import Failed, Finished
 from game.screens.study.base import Frame
 from game.screens.study.pages import PageScreen
-from game.screens.study.participant import ScreenParticipant
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits
-from game.screens.terminal import this_terminal
-from game.screens.theme import THEMES, theme_name
+from game.screens.study.seat import ScreenParticipant
+from game.screens.widgets.dialogs import Question
+from game.screens.widgets.signals import lead_out
+from game.screens.widgets.terminal import this_terminal
+from game.screens.widgets.theme import THEMES, theme_name
 from game.study.conduct import conduct
 from game.study.folder import Identity, Study
 from game.study.ledger import NoPlace
 from game.study.lock import SessionBusy, SessionLock, take_over
-from game.study.session import HasWithdrawn, StudySession, open_session, see_place
+from game.study.study_session import HasWithdrawn, StudySession, open_session, see_place
 from game.study.texts import Page, filled
 
 STATUS_TROUBLE = 2
@@ -38,9 +38,9 @@ class StudyApp(App[None], inherit_bindings=False):
     """One participant's session on this terminal."""
 
     CSS_PATH: ClassVar[list[str | PurePath]] = [
-        "../styles/base.tcss",
-        "../styles/mission.tcss",
-        "../styles/pages.tcss",
+        "../widgets/styles/base.tcss",
+        "../widgets/styles/mission.tcss",
+        "../widgets/styles/pages.tcss",
         "study.tcss",
     ]
     ENABLE_COMMAND_PALETTE = False
@@ -55,7 +55,7 @@ class StudyApp(App[None], inherit_bindings=False):
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)
         self.session: StudySession | None = None
-        self.mission_over: asyncio.Future[bool] | None = None
+        self.person = ScreenParticipant(self, self.frame, study.texts, study.settings.mission)
         self.failure: AnaError | None = None
 
     def on_mount(self) -> None:
@@ -99,9 +99,7 @@ class StudyApp(App[None], inherit_bindings=False):
             self.session = open_session(
                 self.study, self.identity, this_terminal(*self.size), silent_ms=silent_ms
             )
-            rules = self.study.settings.mission
-            person = ScreenParticipant(self, self.frame, self.study.texts, rules)
-            if await conduct(self.session, person) == "stopped":
+            if await conduct(self.session, self.person) == "stopped":
                 goodbye = self.study.texts.words.goodbye
                 await self.push_screen_wait(PageScreen(self.frame, goodbye))
         finally:
@@ -121,12 +119,10 @@ class StudyApp(App[None], inherit_bindings=False):
         self.exit(return_code=status)
 
     def on_finished(self, message: Finished) -> None:
-        if self.mission_over is not None and not self.mission_over.done():
-            self.mission_over.set_result(message.complete)
+        self.person.mission_ended(message.complete)
 
     def on_failed(self, message: Failed) -> None:
-        if self.mission_over is not None and not self.mission_over.done():
-            self.mission_over.set_exception(message.error)
+        self.person.mission_ended(message.error)
 
     # --- the window -----------------------------------------------------------------------------
 
@@ -146,11 +142,6 @@ class StudyApp(App[None], inherit_bindings=False):
             self.pop_screen()
         elif not (covered or enough or nothing_yet):
             self.push_screen(WindowTooSmall(self.frame))
-
-    def uncover(self, screen: Screen[None]) -> None:
-        """Take away whatever stands over `screen`."""
-        while self.screen is not screen:
-            self.pop_screen()
 
 
 def run_session(study: Study, identity: Identity) -> int:

@@ -17,9 +17,9 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from game.errors import AnaError
-from game.screens.dialogs import Question
-from game.screens.keyline import KeyLine
-from game.study.settings import ScreenSize
+from game.screens.widgets.dialogs import Question
+from game.screens.widgets.keyline import KeyLine
+from game.study.study_settings import ScreenSize
 from game.study.texts import Page, Words
 
 Result = TypeVar("Result")

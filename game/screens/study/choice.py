@@ -8,9 +8,9 @@ from typing import ClassVar
 from textual.binding import Binding, BindingType
 from textual.widgets import Static
 
-from game.screens.canvas import BLANK, Canvas, Row, wrapped
-from game.screens.keyline import KeyLine
 from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
+from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
 
 INDENT = 6

@@ -9,12 +9,12 @@ from textual import events
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 
-from game.screens.canvas import BLANK, Canvas, Row
-from game.screens.dialogs import Question
-from game.screens.keyline import KeyLine
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.planmap import PlanMap
 from game.screens.study.timed import TICK_S, TimeLine
+from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.widgets.dialogs import Question
+from game.screens.widgets.keyline import KeyLine
 from game.study.tasks import Labelling
 from game.world.building import Room
 

@@ -7,11 +7,11 @@ from typing import ClassVar
 from textual.binding import Binding, BindingType
 from textual.widget import Widget
 
-from game.screens.canvas import BLANK, Canvas
-from game.screens.glyphs import PLAIN, SOLID, STYLES
-from game.screens.howto import sign_rows, walking_rows
-from game.screens.keyline import KeyLine
 from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.widgets.canvas import BLANK, Canvas
+from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES
+from game.screens.widgets.howto import sign_rows, walking_rows
+from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
 
 

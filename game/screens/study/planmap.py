@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from game.screens.canvas import Canvas
-from game.screens.minimap import HALF_BLOCKS, STYLES, Pin, SmallMap
+from game.screens.widgets.canvas import Canvas
+from game.screens.widgets.minimap import HALF_BLOCKS, STYLES, Pin, SmallMap
 from game.world.building import Building, Room
 from game.world.geometry import Cell
 from game.world.labels import label_lines

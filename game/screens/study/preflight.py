@@ -11,12 +11,12 @@ from textual.app import ComposeResult
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
-from game.screens.canvas import BLANK, Canvas, Run
-from game.screens.keyline import KeyLine
+from game.journal.records import Preflighted
 from game.screens.study.base import Column, Frame, StudyScreen
-from game.screens.terminal import colours, this_terminal
-from game.session.records import Preflighted
-from game.study.settings import ScreenSize
+from game.screens.widgets.canvas import BLANK, Canvas, Run
+from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.terminal import colours, this_terminal
+from game.study.study_settings import ScreenSize
 
 ARROWS = {"up": "↑", "down": "↓", "left": "←", "right": "→", "space": "␣"}
 """The keys that must arrive, and how each is shown."""

@@ -8,8 +8,8 @@ from textual import events
 from textual.binding import Binding, BindingType
 from textual.widgets import TextArea
 
-from game.screens.keyline import KeyLine
 from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
 
 MOST_LETTERS = 2_000

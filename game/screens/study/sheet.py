@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, Protocol
 
-from game.screens.canvas import BLANK, Canvas, Row
-from game.screens.keyline import KeyLine
 from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.widgets.keyline import KeyLine
 from game.study.tasks import Asked, Sheet
 from game.study.texts import Page
 

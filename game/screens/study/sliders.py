@@ -9,9 +9,9 @@ from textual import work
 from textual.binding import Binding, BindingType
 from textual.timer import Timer
 
-from game.screens.canvas import Row
 from game.screens.study.base import Frame
 from game.screens.study.sheet import SheetScreen
+from game.screens.widgets.canvas import Row
 from game.study.tasks import Asked, Sheet
 from game.study.texts import Page
 

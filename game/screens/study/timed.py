@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from game.screens.canvas import Canvas
-from game.screens.status import clock_text
+from game.screens.widgets.canvas import Canvas
+from game.screens.widgets.statuspanel import clock_text
 
 TICK_S = 0.2
 """How often a timed task looks at the clock."""

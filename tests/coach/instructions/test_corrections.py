@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.instructions import Pose, correction, instruct
-from game.coach.instructions.corrections import PASSED_DOOR, TOO_FAR, WRONG_WAY
-from game.coach.records import Level
+from game.coach.instructions.notices import PASSED_DOOR, TOO_FAR, WRONG_WAY
 from game.world.geometry import Heading
 from tests.coach.instructions.office import goal_at, office, pose, poses, scene
 

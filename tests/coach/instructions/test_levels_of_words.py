@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.instructions import Pose, Scene, instruct, lower, raise_
-from game.coach.records import Level
 from game.world.building import Building, Severity, VictimSite
 from game.world.floodfill import Floodfills
 from game.world.geometry import Cell, Heading

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.coach.acts import Level
 from game.coach.instructions import instruct
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import MOST_COUNTED, THINGS, Tuple, belongs
-from game.coach.records import Level
 from game.rescuers.literal.grammar import parse
 from tests.coach.instructions.office import office, poses, scene
 

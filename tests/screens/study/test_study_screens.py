@@ -12,19 +12,7 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
-from game.screens.dialogs import Question
-from game.screens.study.app import StudyApp
-from game.screens.study.base import StudyScreen
-from game.screens.study.choice import ChoiceScreen
-from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
-from game.screens.study.memorise import MemoriseScreen
-from game.screens.study.mission import Reminder, StudyMissionScreen
-from game.screens.study.pages import PageScreen, Signs
-from game.screens.study.preflight import PreflightScreen, WindowTooSmall
-from game.screens.study.reason import ReasonScreen
-from game.screens.study.sliders import SlidersScreen
-from game.session.records import (
+from game.journal.records import (
     Exposed,
     FreeText,
     MissionAbandoned,
@@ -38,7 +26,19 @@ from game.session.records import (
     SessionEnded,
     TakenOver,
 )
-from game.session.sink import FileSink
+from game.journal.sink import FileSink
+from game.screens.study.app import StudyApp
+from game.screens.study.base import StudyScreen
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.memorise import MemoriseScreen
+from game.screens.study.mission_page import Reminder, StudyMissionScreen
+from game.screens.study.pages import PageScreen, Signs
+from game.screens.study.preflight import PreflightScreen, WindowTooSmall
+from game.screens.study.reason import ReasonScreen
+from game.screens.study.sliders import SlidersScreen
+from game.screens.widgets.dialogs import Question
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
 from game.study.protocol import Step

@@ -17,8 +17,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from game.session.reader import Entry
-from game.session.records import (
+from game.journal.reader import Entry
+from game.journal.records import (
     Exposed,
     Interruption,
     PhaseEnded,

@@ -1,0 +1,82 @@
+"""Preference: the four statements, and which instructor was liked better (paper 5.3, 5.4)."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from analysis.pages.style import BLUE, INK, ORANGE, SHADE, Captioned, captioned, quiet_style
+from analysis.sources.absent import Absent, Row
+from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
+from analysis.sources.frames import Study
+
+POINTS = (1, 2, 3, 4, 5)
+STATEMENTS = dict(
+    zip(LIKERT_ITEMS, ("easy to understand", "helpful", "right difficulty", "enjoyed"), strict=True)
+)
+
+
+def statements_figure(study: Study) -> Captioned:
+    """How each statement was answered after either instructor."""
+    with quiet_style():
+        figure = Figure(figsize=(7.2, 3.4))
+        panels = np.ravel(figure.subplots(1, len(LIKERT_ITEMS), sharey=True))
+        for axes, item in zip(panels, LIKERT_ITEMS, strict=True):
+            axes.set_title(STATEMENTS[item])
+            axes.set_xlabel("answer, 1 to 5")
+            for name, colour, shift in zip(ADAPTIVITY, (ORANGE, BLUE), (-0.2, 0.2), strict=True):
+                answers = study.rounds.loc[study.rounds["adaptivity"] == name, item].dropna()
+                shares = [float((answers == point).mean()) if len(answers) else 0.0
+                          for point in POINTS]  # fmt: skip
+                axes.bar(np.array(POINTS) + shift, shares, 0.38, color=colour, label=name)
+            axes.set_xticks(POINTS)
+        panels[0].set_ylabel("share of answers")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
+        return captioned(
+            "preference_statements",
+            figure,
+            "The four statements after the static (orange) and the adaptive (blue) instructor: "
+            "look whether one colour stands farther to the right.",
+            simulated=study.simulated,
+        )
+
+
+def preferred_figure(rows: Row | Absent, *, simulated: bool) -> Captioned:
+    """The share who preferred the adaptive instructor; `rows` are those of `preferred_rows`."""
+    table = preferred_table(rows)
+    with quiet_style():
+        figure = Figure(figsize=(7.2, 1.4 + 0.3 * max(1, len(table))))
+        axes = figure.subplots()
+        axes.grid(axis="x")
+        axes.grid(visible=False, axis="y")
+        axes.axvline(0.5, color=INK, linewidth=0.8, linestyle=":")
+        axes.axhspan(-0.5, 0.5, color=SHADE, zorder=0)
+        for at, row in enumerate(table.to_dict("records")):
+            axes.plot([row["lower.CL"], row["upper.CL"]], [at, at], color=BLUE, linewidth=1.6)
+            axes.plot([row["share"]], [at], "o", color=BLUE, markeredgecolor="white")
+        axes.set_yticks(
+            range(len(table)), [f"{row['of']} (n = {row['n']})" for row in table.to_dict("records")]
+        )
+        axes.set_ylim(len(table) - 0.5, -0.5)
+        axes.set_xlim(0, 1)
+        axes.set_xlabel("share who preferred the adaptive instructor")
+        return captioned(
+            "preferred",
+            figure,
+            "Which instructor was preferred, with exact 95% intervals: an interval that misses the "
+            "dotted half is a preference.",
+            simulated=simulated,
+        )
+
+
+def preferred_table(rows: Row | Absent) -> pd.DataFrame:
+    """The tests of `preferred_rows` as one table, everybody first."""
+    if isinstance(rows, Absent):
+        return pd.DataFrame(columns=["of", "n", "adaptive", "share", "lower.CL", "upper.CL", "p"])
+    found: list[dict[str, object]] = []
+    for name, part in rows.items():
+        if name == "all" and isinstance(part, dict):
+            found.insert(0, {"of": "everybody", **part})
+        elif isinstance(part, list):
+            found += [{"of": row[name], **{k: v for k, v in row.items() if k != name}}
+                      for row in part if isinstance(row, dict)]  # fmt: skip
+    return pd.DataFrame(found)

@@ -1,0 +1,54 @@
+"""Several simulated studies side by side: every preset over several kinds of people."""
+
+import gzip
+from collections.abc import Mapping
+from pathlib import Path
+
+import pandas as pd
+
+from analysis.pages.mission_rows import missions
+from analysis.sources.absent import SourceError
+from analysis.sources.recorded import Recorded
+from analysis.stats.groups import grouped
+
+FILE = "behaviour.csv.gz"
+PRESETS = ("calibrated", "literal", "fig10", "released")
+POPULATIONS = ("default", "hasty", "careful")
+#: What tells the studies apart: the coach's preset and the kind of people.
+BY = ["preset", "people"]
+
+Key = tuple[str, str]
+
+
+def missions_of(studies: Mapping[Key, Recorded]) -> pd.DataFrame:
+    """The missions of all studies, each by preset and kind of people, as `missions` has them.
+    Groups are formed in each study, and nobody is left out: whether somebody disobeys
+    depends on the preset."""
+    parts = []
+    for (preset, people), recorded in studies.items():
+        study, _ = grouped(recorded.study())
+        parts.append(missions(recorded, study).assign(preset=preset, people=people))
+    return pd.concat(parts, ignore_index=True)
+
+
+def write_missions(table: pd.DataFrame, folder: Path) -> Path:
+    """Write what `missions_of` gave into `folder`."""
+    path = folder / FILE
+    text = table.to_csv(index=False, lineterminator="\n", float_format="%.9g")
+    path.write_bytes(gzip.compress(text.encode(), 9, mtime=0))
+    return path
+
+
+def read_missions(folder: Path) -> pd.DataFrame:
+    """The missions of several studies that lie beside the tables of one.
+
+    Raises SourceError where there are none.
+    """
+    path = folder / FILE
+    if not path.is_file():
+        raise SourceError(
+            "there are no missions of other simulated studies here",
+            place=str(path),
+            mend="`make reproduce` simulates them",
+        )
+    return pd.read_csv(path)

@@ -1,0 +1,158 @@
+"""What other thresholds and another prior would have made of the same behaviour."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from analysis.pages.mission_rows import with_groups
+from analysis.sources.absent import Refusal
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
+from analysis.sources.frames import Floats, Study
+from analysis.sources.recorded import Recorded
+from game.tables.rejudging import (
+    GoalEnd,
+    Judged,
+    Rule,
+    levels_under,
+    rule_of,
+    with_prior_mass,
+)
+
+
+@dataclass(frozen=True)
+class JudgedMission:
+    """One adaptive mission as Algorithm 1 saw it; times in ms."""
+
+    participant: str
+    knowledge: str
+    rule: Rule
+    judged: tuple[Judged, ...]
+    ends: tuple[GoalEnd, ...]
+    until_ms: int
+
+
+def judged_missions(recorded: Recorded, study: Study) -> list[JudgedMission]:
+    """The adaptive missions of the people in `study`, in the order of their names.
+
+    Raises Refusal without adaptive missions, or for a preset whose rule needs more than
+    comprehension.
+    """
+    rounds = with_groups(recorded.frame("rounds"), study)
+    played = rounds[rounds["preset"].notna()]
+    if played.empty:
+        raise Refusal("no adaptive mission was played")
+    ends = _goal_ends(recorded)
+    clear = recorded.frame("posteriors")
+    clear = clear[clear["verdict"] != "none"]
+    judged = dict(list(clear.groupby(["participant", "round"])))
+    lasted = recorded.frame("levels").groupby(["participant", "round"], as_index=False)
+    until = {
+        (who, round_): int(at_ms)
+        for who, round_, at_ms in lasted["until_ms"].max().itertuples(index=False)
+    }
+    return [
+        JudgedMission(
+            participant=who,
+            knowledge=group,
+            rule=_rule(preset),
+            judged=_judged(judged.get((who, round_))),
+            ends=tuple(ends.get((who, round_), ())),
+            until_ms=until[who, round_],
+        )
+        for who, round_, group, preset in zip(
+            *(played[name] for name in ("participant", "round", "knowledge", "preset")), strict=True
+        )
+        if (who, round_) in until
+    ]
+
+
+def stretches(
+    mission: JudgedMission,
+    *,
+    lower_below: float | None = None,
+    raise_above: float | None = None,
+    prior_mass: float | None = None,
+) -> list[tuple[str, int, int]]:
+    """(level, from, until) under the mission's own rule with other thresholds or another prior.
+
+    Raises Refusal for another prior mass where the prior was uniform.
+    """
+    judged, own = mission.judged, mission.rule.prior_mass
+    if prior_mass is not None:
+        if own is None:
+            raise Refusal(f"the prior of {mission.rule.name} is uniform, and has no mass")
+        judged = tuple(
+            Judged(at_ms, with_prior_mass(value, own, prior_mass)) for at_ms, value in judged
+        )
+    rule = rule_of(mission.rule.name, lower_below=lower_below, raise_above=raise_above)
+    changes = list(levels_under(rule, judged, mission.ends))
+    untils = [*(at_ms for at_ms, _ in changes[1:]), mission.until_ms]
+    return [
+        (level, from_ms, until_ms)
+        for (from_ms, level), until_ms in zip(changes, untils, strict=True)
+        if until_ms > from_ms
+    ]
+
+
+def shares(mission: JudgedMission, **changes: float | None) -> Floats:
+    """Shares of the mission at C1, C2 and C3; `changes` as in `stretches`."""
+    spent = np.zeros(len(COMPLEXITY))
+    for level, from_ms, until_ms in stretches(mission, **changes):
+        spent[COMPLEXITY.index(level)] += until_ms - from_ms
+    return spent / mission.until_ms
+
+
+def sweep(missions: Sequence[JudgedMission], change: str, values: Sequence[float]) -> pd.DataFrame:
+    """Mean shares by knowledge group (columns `knowledge`, `value`, C1, C2, C3) as one thing
+    changes: `lower_below`, `raise_above` or `prior_mass`."""
+    rows = []
+    for value in values:
+        found = np.array([shares(mission, **{change: value}) for mission in missions])
+        for group in KNOWLEDGE:
+            inside = [mission.knowledge == group for mission in missions]
+            if any(inside):
+                mean = found[inside].mean(axis=0)
+                rows.append(
+                    {"knowledge": group, "value": value, **dict(zip(COMPLEXITY, mean, strict=True))}
+                )
+    return pd.DataFrame(rows)
+
+
+def _rule(name: str) -> Rule:
+    try:
+        return rule_of(name)
+    except ValueError as error:
+        raise Refusal(str(error)) from error
+
+
+def _judged(rows: pd.DataFrame | None) -> tuple[Judged, ...]:
+    if rows is None:
+        return ()
+    return tuple(
+        Judged(int(at_ms), float(value))
+        for at_ms, value in zip(rows["at_ms"], rows["comprehension"], strict=True)
+    )
+
+
+def _goal_ends(recorded: Recorded) -> dict[tuple[str, int], list[GoalEnd]]:
+    """A goal ends where the next is set, which the bar shows at once."""
+    told = recorded.frame("instructions")
+    victims = recorded.frame("victims")
+    rescued = set(_rescues(victims))
+    ends: dict[tuple[str, int], list[GoalEnd]] = {}
+    for (who, round_), rows in told[told["reason"] == "goal"].groupby(["participant", "round"]):
+        key = str(who), int(str(round_))
+        ends[key] = [
+            GoalEnd(int(at_ms), (*key, int(at_ms)) in rescued) for at_ms in rows["at_ms"].iloc[1:]
+        ]
+    return ends
+
+
+def _rescues(victims: pd.DataFrame) -> Iterator[tuple[str, int, int]]:
+    saved = victims[victims["fate"] == "rescued"]
+    for who, round_, at_ms in zip(
+        saved["participant"], saved["round"], saved["fate_ms"], strict=True
+    ):
+        yield str(who), int(round_), int(at_ms)

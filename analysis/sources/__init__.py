@@ -1,0 +1,1 @@
+"""Reads journals, tables and long CSV files, and checks what it reads."""

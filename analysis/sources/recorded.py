@@ -1,0 +1,130 @@
+"""Everything that a study's journals tell, as data frames, and the two tables of it that the
+statistics need.
+
+A frame has the columns that `game.tables.rows` describes. Its cells are made from the same text
+that a written table holds, so a study read from journals and one read from tables are the same.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import msgspec
+import pandas as pd
+
+from analysis.sources.absent import SourceError
+from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES
+from analysis.sources.frames import Study, make_study
+from game.tables.columns import Column, cells, columns
+from game.tables.session_tables import ROW_TYPES
+
+#: What analyses read; actions are many, and texts in own words may identify a person.
+ANALYSED = tuple(name for name in ROW_TYPES if name not in ("actions", "freetext"))
+
+PERSON = (
+    "complexity",
+    "order",
+    "memorise_minutes",
+    "quiz_static",
+    "disobeyed",
+    "repeat_misstep",
+    "other_victim",
+    "preferred_instructor",
+)
+ROUND = ("participant", "adaptivity", "building", "victims", *MENTAL_STATES, *LIKERT_ITEMS)
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """The frames of a study by the names in `ANALYSED`; `notes` say what a reader must know."""
+
+    frames: Mapping[str, pd.DataFrame]
+    label: str
+    simulated: bool
+    notes: tuple[str, ...] = ()
+
+    def frame(self, name: str) -> pd.DataFrame:
+        """The frame called `name`."""
+        return self.frames[name]
+
+    def noted(self, *notes: str) -> "Recorded":
+        """The same study with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
+    def study(self) -> Study:
+        """Everybody randomised, as the statistics take it.
+
+        Raises SourceError where nobody got as far as the allocation.
+        """
+        people = self.frame("participants").set_index("participant")
+        people = people[people["complexity"].notna()]
+        if people.empty:
+            raise SourceError(
+                f"{self.label}: nobody got as far as the allocation; there is nothing to analyse"
+            )
+        rounds = self.frame("rounds")[list(ROUND)]
+        study = make_study(people[list(PERSON)], rounds, label=self.label, simulated=self.simulated)
+        return study.noted(*self.notes, *_unfinished(self.frame("participants")))
+
+
+def recorded(frames: Mapping[str, pd.DataFrame], label: str, notes: Iterable[str] = ()) -> Recorded:
+    """A study of these frames.
+
+    Raises SourceError for no session at all, a participant who is there twice, or real and
+    simulated sessions together.
+    """
+    people = frames["participants"]
+    if people.empty:
+        raise SourceError(f"{label}: there are no sessions in it")
+    twice = people.loc[people["participant"].duplicated(), "participant"]
+    if len(twice):
+        raise SourceError(f"{label}: participant {twice.iloc[0]} is there twice; keep one session")
+    kinds = set(people["simulated"])
+    if len(kinds) > 1:
+        raise SourceError(f"{label}: it holds real and simulated sessions; they are analysed apart")
+    several = _versions(people)
+    return Recorded(frames, label, kinds == {True}, (*notes, *several))
+
+
+def frame_of(name: str, rows: Iterable[msgspec.Struct]) -> pd.DataFrame:
+    """The rows of the table called `name` as a frame."""
+    return typed(name, [list(cells(row)) for row in rows])
+
+
+def typed(name: str, table: Sequence[Sequence[str]]) -> pd.DataFrame:
+    """A frame of text cells with each column's own type; an empty cell is missing.
+
+    Raises ValueError for a cell that its column cannot hold.
+    """
+    described = columns(ROW_TYPES[name])
+    text = pd.DataFrame(table, columns=[column.name for column in described], dtype=object)
+    return pd.DataFrame({column.name: _converted(text, column) for column in described})
+
+
+def _converted(text: pd.DataFrame, column: Column) -> "pd.Series":
+    values = text[column.name]
+    if column.values == "true, false":
+        truths = values.map({"true": True, "false": False})
+        return truths if column.optional else truths.astype(bool)
+    if column.values in ("whole number", "number"):
+        numbers = pd.to_numeric(values.where(values != "", None))
+        whole = column.values == "whole number" and not column.optional
+        return numbers.astype("int64" if whole else "float64")
+    return values.where(values != "", None) if column.optional else values
+
+
+def _versions(people: pd.DataFrame) -> list[str]:
+    notes = []
+    for column, what in (("game_version", "versions of ana"), ("study_sha256", "study.toml files")):
+        found = people[column].dropna().unique()
+        if len(found) > 1:
+            notes.append(f"the sessions were played under {len(found)} different {what}")
+    torn = people.loc[people["torn_bytes"] > 0, "participant"]
+    if len(torn):
+        notes.append(f"an unfinished line was left out of the journal of {', '.join(torn)}")
+    return notes
+
+
+def _unfinished(people: pd.DataFrame) -> list[str]:
+    begun = people["complexity"].notna() & (people["session_ending"] != "finished")
+    names = people.loc[begun, "participant"]
+    return [f"randomised and not finished: {', '.join(names)}"] if len(names) else []

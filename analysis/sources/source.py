@@ -1,0 +1,65 @@
+"""Finds out what kind of source was given, and reads it."""
+
+from pathlib import Path
+
+from analysis.sources.absent import SourceError
+from analysis.sources.frames import Study
+from analysis.sources.longcsv import read_long_csv
+from analysis.sources.recorded import Recorded
+from analysis.sources.study_folder import (
+    StudyMode,
+    Tick,
+    is_study_folder,
+    mode_of,
+    read_study_folder,
+)
+from analysis.sources.tables_folder import is_tables_folder, read_tables
+
+
+def load_study(
+    source: Path,
+    quiz: Path | None = None,
+    mode: StudyMode | None = None,
+    *,
+    check: bool = True,
+    tick: Tick = lambda _done, _all: None,
+) -> Study:
+    """Read one long CSV, with quiz scores if given, a study folder, or a folder of tables.
+
+    Raises SourceError or JournalError naming the place and the mend.
+    """
+    if source.is_dir():
+        if quiz is not None:
+            raise SourceError("--quiz goes with a CSV source; sessions have their own scores")
+        return load_recorded(source, mode, check=check, tick=tick).study()
+    if mode is not None:
+        raise SourceError("--mode goes with a study folder; a CSV has a column 'simulated'")
+    return read_long_csv(source, quiz)
+
+
+def holds_live_sessions(source: Path, mode: StudyMode | None = None) -> bool:
+    """Whether live sessions of a study folder are what is read of a source that can be read."""
+    study_folder = not is_tables_folder(source) and is_study_folder(source)
+    return study_folder and mode_of(source, mode) == "live"
+
+
+def load_recorded(
+    source: Path,
+    mode: StudyMode | None = None,
+    *,
+    check: bool = True,
+    tick: Tick = lambda _done, _all: None,
+) -> Recorded:
+    """Read a study folder (`mode` and `check` as `read_study_folder` has them), or its tables.
+
+    Raises SourceError or JournalError naming the place and the mend.
+    """
+    if is_tables_folder(source):
+        return read_tables(source)
+    if is_study_folder(source):
+        return read_study_folder(source, mode, check=check, tick=tick)
+    raise SourceError(
+        "this is neither a study folder nor a folder of tables",
+        place=str(source),
+        mend="Give the folder that `ana study new` or `ana simulate` has made",
+    )

@@ -1,0 +1,168 @@
+"""Reads the journals of a study folder, through `game.session` alone."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from os import cpu_count
+from pathlib import Path
+from typing import Final, Literal, get_args
+
+from analysis.sources.absent import SourceError
+from analysis.sources.recorded import ANALYSED, Recorded, frame_of, recorded
+from game.journal.folders import SESSIONS, journals
+from game.journal.reader import read_journal
+from game.session.verification import verify
+from game.tables.session_tables import Tables, combined, session_tables
+
+StudyMode = Literal["live", "pilot", "simulated"]
+MODES: Final[tuple[StudyMode, ...]] = get_args(StudyMode)
+#: From so many journals on they are read by several processes.
+MANY = 4
+#: So many journals that do not verify are named.
+NAMED = 3
+
+Tick = Callable[[int, int], object]
+"""Told after each journal how many have been read, and of how many."""
+
+
+@dataclass(frozen=True)
+class _Read:
+    """One journal as a worker hands it back."""
+
+    path: Path
+    tables: Tables
+    schema: int
+    difference: str
+
+
+def read_study_folder(
+    folder: Path,
+    mode: StudyMode | None = None,
+    *,
+    check: bool = True,
+    tick: Tick = lambda _done, _all: None,
+) -> Recorded:
+    """The sessions of one mode in a study folder; without `mode`, of the only one there is.
+
+    With `check` every mission is played again from its actions and must come out as recorded.
+    Raises SourceError or JournalError, naming the place and the mend.
+    """
+    mode = mode_of(folder, mode)
+    paths = journals(folder, mode)
+    if not paths:
+        raise SourceError(
+            "there are no sessions in it",
+            place=str(folder / SESSIONS / mode),
+            mend=f"Take those that there are: {_there_are(folder)}",
+        )
+    read = _read_all(paths, check, tick)
+    _refuse_changed(read)
+    for one in read:
+        _refuse_mislabelled(one, mode)
+    tables = combined(one.tables for one in read)
+    frames = {name: frame_of(name, tables.table(name)) for name in ANALYSED}
+    schemas = sorted({one.schema for one in read})
+    notes = [] if len(schemas) == 1 else [_mixed(schemas)]
+    if mode == "pilot":
+        notes.append("these are pilot sessions, no data of the study")
+    return recorded(frames, folder.resolve().name, notes)
+
+
+def is_study_folder(folder: Path) -> bool:
+    """Whether there is a folder of sessions, or a study that has had none yet."""
+    return (folder / SESSIONS).is_dir() or (folder / "study.toml").is_file()
+
+
+def mode_of(folder: Path, mode: StudyMode | None) -> StudyMode:
+    """The mode to read: the one asked for, else that of the live sessions, or of the simulated
+    ones where they are alone. Raises SourceError where that is not clear."""
+    return mode or _only_mode(folder)
+
+
+def _only_mode(folder: Path) -> StudyMode:
+    found: list[StudyMode] = [mode for mode in MODES if journals(folder, mode)]
+    real = [mode for mode in found if mode != "simulated"]
+    if "simulated" in found and real:
+        raise SourceError(
+            f"it holds {' and '.join(real)} sessions, and simulated ones; they are analysed apart",
+            place=str(folder),
+            mend=f"Say which: {_options(found)}",
+        )
+    if found == ["pilot"]:
+        raise SourceError(
+            "it holds pilot sessions alone, which are no data",
+            place=str(folder),
+            mend="To try the analysis on them all the same: --mode pilot",
+        )
+    if not found:
+        raise SourceError(
+            "there are no sessions in it",
+            place=str(folder),
+            mend="`ana study run` lets participants in, `ana simulate` simulates some",
+        )
+    return found[0]
+
+
+def _there_are(folder: Path) -> str:
+    return _options([mode for mode in MODES if journals(folder, mode)]) or "none"
+
+
+def _options(modes: Sequence[StudyMode]) -> str:
+    return " or ".join(f"--mode {mode}" for mode in modes)
+
+
+def _read_all(paths: Sequence[Path], check: bool, tick: Tick) -> list[_Read]:
+    read: list[_Read] = []
+    if len(paths) < MANY:
+        for path in paths:
+            read.append(_read(path, check))
+            tick(len(read), len(paths))
+        return read
+    with ProcessPoolExecutor(min(len(paths), cpu_count() or 1)) as pool:
+        for one in pool.map(_read, paths, [check] * len(paths)):
+            read.append(one)
+            tick(len(read), len(paths))
+    return read
+
+
+def _read(path: Path, check: bool) -> _Read:
+    transcript = read_journal(path)
+    tables = replace(session_tables(transcript), actions=(), freetext=())
+    difference = verify(path).difference if check else None
+    told = "" if difference is None else str(difference)
+    return _Read(path, tables, transcript.started.versions.schema, told)
+
+
+def _refuse_changed(read: Sequence[_Read]) -> None:
+    changed = [one for one in read if one.difference]
+    if changed:
+        told = "; ".join(f"{one.path}: {one.difference}" for one in changed[:NAMED])
+        more = f"; and {len(changed) - NAMED} more" if len(changed) > NAMED else ""
+        raise SourceError(
+            f"{len(changed)} of {len(read)} journals do not verify: {told}{more}",
+            mend="Restore the originals, or analyse them as they are with --no-verify",
+        )
+
+
+def _refuse_mislabelled(one: _Read, mode: StudyMode) -> None:
+    person = one.tables.participants[0]
+    if person.mode != mode or person.simulated is not (mode == "simulated"):
+        kind = "simulated" if person.simulated else "real"
+        raise SourceError(
+            f"this is a {kind} session of mode {person.mode} among the {mode} ones",
+            place=str(one.path),
+            mend="Put it back where it was recorded",
+        )
+    if person.participant != one.path.parent.name:
+        raise SourceError(
+            f"this is the journal of participant {person.participant}",
+            place=str(one.path),
+            mend="Put it back into that participant's folder",
+        )
+
+
+def _mixed(schemas: Sequence[int]) -> str:
+    return (
+        f"the journals were written under schemas {', '.join(map(str, schemas))}; the older ones "
+        "were read as the newest"
+    )

@@ -1,0 +1,113 @@
+"""The knowledge x complexity x adaptivity mixed ANOVA of the paper (section 5.4), in closed form.
+
+With d = (adaptive - static)/sqrt 2 and b = (adaptive + static)/sqrt 2 a participant, effects that
+contain adaptivity are tests of the saturated model of d (adaptivity itself is its intercept) and
+the others are tests of b. One within factor of two levels makes the multivariate and the
+univariate test the same: Wilks' lambda = SSE/(SSE + SS).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.sources.absent import Absent, Refusal, Row
+from analysis.sources.frames import Floats, Paired
+from analysis.stats.cellmodel import CellModel, FTest, fit_cells
+
+_MEAN = np.full((1, 3), 1 / 3)
+_GAPS = np.array([[1.0, -1.0, 0.0], [1.0, 0.0, -1.0]])
+
+#: Between effects and their hypotheses on the nine cell means (q x 9).
+HYPOTHESES: dict[str, Floats] = {
+    "(Intercept)": np.kron(_MEAN, _MEAN),
+    "knowledge": np.kron(_GAPS, _MEAN),
+    "complexity": np.kron(_MEAN, _GAPS),
+    "knowledge:complexity": np.kron(_GAPS, _GAPS),
+}
+BETWEEN = tuple(HYPOTHESES)
+WITHIN = ("adaptivity", *(f"{name}:adaptivity" for name in BETWEEN[1:]))
+EFFECTS = (*BETWEEN, *WITHIN)
+THREE_WAY = WITHIN[-1]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One line of the mixed ANOVA.
+
+    `ges` is generalised eta squared with every factor manipulated; `ges_obs_knowledge` takes
+    knowledge as measured (Olejnik & Algina, 2003) and is the one to report. `wilks` is None for
+    a between effect.
+    """
+
+    effect: str
+    test: FTest
+    ges: float
+    ges_obs_knowledge: float
+
+    @property
+    def wilks(self) -> float | None:
+        """Wilks' lambda of an effect that contains adaptivity, else None."""
+        return 1 - self.test.pes if self.effect in WITHIN else None
+
+    def row(self) -> Row:
+        """The line as written to the results."""
+        test = self.test
+        return {
+            "effect": self.effect,
+            "df1": test.df1,
+            "df2": test.df2,
+            "ss": test.ss,
+            "ss_error": test.ss_error,
+            "mse": test.mse,
+            "F": test.F,
+            "p": test.p,
+            "pes": test.pes,
+            "ges": self.ges,
+            "ges_obs_knowledge": self.ges_obs_knowledge,
+            "wilks": Absent("Wilks' lambda belongs to within-person effects alone")
+            if self.wilks is None
+            else self.wilks,
+        }
+
+
+def difference_model(pair: Paired) -> CellModel:
+    """The saturated model of d = (adaptive - static)/sqrt 2."""
+    return fit_cells(pair.difference / np.sqrt(2), pair.cell)
+
+
+def sum_model(pair: Paired) -> CellModel:
+    """The saturated model of b = (adaptive + static)/sqrt 2."""
+    return fit_cells(pair.mean * np.sqrt(2), pair.cell)
+
+
+def mixed_anova(pair: Paired) -> list[Effect]:
+    """All eight effects, in the order of `EFFECTS`.
+
+    Raises Refusal, naming the cells, where an analysis cell is empty, and where there is no error
+    variance to test against.
+    """
+    b, d = sum_model(pair), difference_model(pair)
+    b.require_every_cell()
+    for model, what in ((b, "the mean of the two rounds"), (d, "adaptive - static")):
+        reason = model.why_no_error()
+        if reason is not None:
+            raise Refusal(f"{what}: {reason}")
+    tests = {
+        **{name: b.test(hypothesis) for name, hypothesis in HYPOTHESES.items()},
+        **{
+            name: d.test(hypothesis)
+            for name, hypothesis in zip(WITHIN, HYPOTHESES.values(), strict=True)
+        },
+    }
+    error = b.sse + d.sse
+    measured = sum(test.ss for name, test in tests.items() if "knowledge" in name)
+    return [
+        Effect(
+            effect=name,
+            test=test,
+            ges=test.ss / (test.ss + error),
+            ges_obs_knowledge=test.ss
+            / (measured + error + (0.0 if "knowledge" in name else test.ss)),
+        )
+        for name, test in tests.items()
+    ]

@@ -1,0 +1,182 @@
+"""The saturated 3 x 3 model of one variable: cell means, one pooled error, exact tests.
+
+With D = diag(1/n), a hypothesis L m = 0 on the unweighted cell means m has
+SS = (L m)' (L D L')^-1 (L m) and F = (SS/q)/MSE with MSE = SSE/df, df = N - 9 (Type III with no
+empty cell; Searle, Linear Models for Unbalanced Data, 1987).
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from analysis.sources.absent import Absent, Refusal, Row
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
+from analysis.sources.frames import Floats, Ints
+
+CELLS = tuple((knowledge, level) for knowledge in KNOWLEDGE for level in COMPLEXITY)
+#: A spread within cells below this share of the largest value is rounding, not variation.
+FLAT = 1e-12
+
+
+@dataclass(frozen=True)
+class FTest:
+    """One F test: sums of squares, degrees of freedom, F and p."""
+
+    df1: int
+    df2: int
+    ss: float
+    ss_error: float
+    F: float
+    p: float
+
+    @property
+    def mse(self) -> float:
+        """Mean square of the error."""
+        return self.ss_error / self.df2
+
+    @property
+    def pes(self) -> float:
+        """Partial eta squared."""
+        return self.ss / (self.ss + self.ss_error)
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """One weighted sum of cell means with its standard error, t and two-sided p.
+
+    A part that the data cannot give is an `Absent` with the reason.
+    """
+
+    estimate: float | Absent
+    se: float | Absent
+    df: int
+    t: float | Absent
+    p: float | Absent
+
+    def interval(self, level: float) -> tuple[float | Absent, float | Absent]:
+        """The two-sided confidence interval of this level (0 to 1)."""
+        if isinstance(self.estimate, Absent):
+            return self.estimate, self.estimate
+        if isinstance(self.se, Absent):
+            return self.se, self.se
+        reach = float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
+        return self.estimate - reach, self.estimate + reach
+
+
+@dataclass(frozen=True)
+class CellModel:
+    """Counts, means and sums of squared residuals of the nine analysis cells.
+
+    `counts` and `means` have shape (9,), in the order of `CELLS`; the mean of an empty cell is
+    NaN. `cell` and `residuals` have one entry a person. `sse` is exactly 0 where nobody differs
+    from their cell's mean beyond rounding.
+    """
+
+    cell: Ints
+    counts: Ints
+    means: Floats
+    residuals: Floats
+    sse: float
+
+    @property
+    def df(self) -> int:
+        """Residual degrees of freedom: people less cells with somebody in them."""
+        return int(self.counts.sum()) - int(np.count_nonzero(self.counts))
+
+    @property
+    def empty(self) -> tuple[str, ...]:
+        """Names of the empty cells."""
+        return tuple(
+            f"{knowledge} {level}"
+            for (knowledge, level), count in zip(CELLS, self.counts, strict=True)
+            if count == 0
+        )
+
+    def why_no_error(self) -> str | None:
+        """The reason why the error variance is unknown or nil, or None."""
+        if self.df == 0:
+            return "nobody shares an analysis cell with another, so there is no error variance"
+        if self.sse == 0:
+            return "nobody differs from their cell's mean, so there is no error variance"
+        return None
+
+    def test(self, hypothesis: Floats) -> FTest:
+        """Test hypothesis @ means = 0 (hypothesis: q x 9, full rank).
+
+        Raises Refusal for an empty cell or an error variance that is unknown or nil.
+        """
+        self.require_every_cell()
+        reason = self.why_no_error()
+        if reason is not None:
+            raise Refusal(reason)
+        q = len(hypothesis)
+        ss = self.sum_of_squares(hypothesis)
+        f = ss / q / (self.sse / self.df)
+        return FTest(q, self.df, ss, self.sse, f, float(stats.f.sf(f, q, self.df)))
+
+    def sum_of_squares(self, hypothesis: Floats) -> float:
+        """SS = (L m)' (L D L')^-1 (L m), for no empty cell."""
+        gap = hypothesis @ self.means
+        return float(gap @ np.linalg.solve((hypothesis / self.counts) @ hypothesis.T, gap))
+
+    def require_every_cell(self) -> None:
+        """Raises Refusal naming the empty cells, if any."""
+        if self.empty:
+            one = len(self.empty) == 1
+            raise Refusal(
+                f"empty analysis cell{'' if one else 's'} (knowledge x complexity): "
+                f"{', '.join(self.empty)}"
+            )
+
+    def contrast(self, weights: Floats) -> Contrast:
+        """The weighted sum of cell means; t = sum(w m) / sqrt(MSE sum(w^2/n))."""
+        used = weights != 0
+        vacant = [name for name in self.empty if used[_position(name)]]
+        if vacant:
+            gone = Absent(f"nobody in {', '.join(vacant)}")
+            return Contrast(gone, gone, self.df, gone, gone)
+        estimate = float(weights[used] @ self.means[used])
+        reason = self.why_no_error()
+        if reason is not None:
+            return Contrast(estimate, Absent(reason), self.df, Absent(reason), Absent(reason))
+        spread = float((weights[used] ** 2 / self.counts[used]).sum())
+        se = float(np.sqrt(self.sse / self.df * spread))
+        t = estimate / se
+        return Contrast(estimate, se, self.df, t, float(2 * stats.t.sf(abs(t), self.df)))
+
+
+def _position(name: str) -> int:
+    knowledge, level = name.split()
+    return CELLS.index((knowledge, level))
+
+
+def fit_cells(values: Floats, cell: Ints) -> CellModel:
+    """Fit one mean a cell (values and cell: shape (people,), cell from 0 to 8)."""
+    counts = np.bincount(cell, minlength=len(CELLS))
+    sums = np.bincount(cell, weights=values, minlength=len(CELLS))
+    means = np.divide(sums, counts, out=np.full(len(CELLS), np.nan), where=counts > 0)
+    residuals = values - means[cell]
+    scale = float(np.abs(values).max(initial=0.0))
+    if bool((np.abs(residuals) <= FLAT * scale).all()):
+        residuals = np.zeros_like(residuals)
+    return CellModel(cell, counts, means, residuals, float(residuals @ residuals))
+
+
+def weights_of(cells: Iterable[tuple[str, str]]) -> Floats:
+    """Weights of the unweighted mean over these (knowledge, complexity) cells, shape (9,)."""
+    chosen = [CELLS.index(cell) for cell in cells]
+    weights = np.zeros(len(CELLS))
+    weights[chosen] = 1 / len(chosen)
+    return weights
+
+
+def contrast_row(contrast: Contrast) -> Row:
+    """estimate, SE, df and t.ratio under their written names."""
+    return {
+        "estimate": contrast.estimate,
+        "SE": contrast.se,
+        "df": contrast.df,
+        "t.ratio": contrast.t,
+    }

@@ -1,0 +1,78 @@
+"""Adjusting p-values inside one family of comparisons."""
+
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+from scipy import special, stats
+
+from analysis.sources.absent import Absent
+from analysis.sources.frames import Floats
+
+PValue: TypeAlias = float | Absent
+
+
+def bonferroni(p: Floats) -> Floats:
+    """p times the size of the family, at most 1."""
+    return np.minimum(1.0, p * len(p))
+
+
+def sidak(p: Floats) -> Floats:
+    """1 - (1 - p)^m, without loss of digits for small p (Sidak, 1967)."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(-np.expm1(len(p) * np.log1p(-p)), dtype=float)
+
+
+def holm(p: Floats) -> Floats:
+    """Step-down Bonferroni (Holm, 1979)."""
+    order = np.argsort(p, kind="stable")
+    steps = np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1))
+    adjusted = np.empty_like(p)
+    adjusted[order] = np.minimum(1.0, steps)
+    return adjusted
+
+
+def tukey(t: Floats, means: int, df: int) -> Floats:
+    """p of the studentised range over `means` means for these t (Tukey-Kramer).
+
+    With s the error's estimated over its true standard deviation, the distribution is
+    E_s[k integral phi(z) (Phi(z) - Phi(z - q s))^(k-1) dz] at q = sqrt(2) |t|; Gauss-Legendre nodes
+    take both integrals for all t at once (absolute error below 1e-9).
+    """
+    error = stats.chi(df, scale=df**-0.5)
+    s, s_weights = _nodes(float(error.ppf(1e-15)), float(error.isf(1e-15)))
+    z, z_weights = _nodes(-8.0, 8.0)
+    span = np.sqrt(2) * np.abs(t)[:, None, None] * s[:, None]
+    below = (special.ndtr(z) - special.ndtr(z - span)) ** (means - 1)
+    inner = means * below @ (z_weights * np.exp(-(z**2) / 2) / np.sqrt(2 * np.pi))
+    beyond: Floats = 1 - inner @ (s_weights * error.pdf(s))
+    return np.clip(beyond, 0.0, 1.0)
+
+
+def _nodes(lower: float, upper: float, number: int = 96) -> tuple[Floats, Floats]:
+    nodes, weights = np.polynomial.legendre.leggauss(number)
+    half = (upper - lower) / 2
+    return lower + half * (nodes + 1), half * weights
+
+
+METHODS = {"p_bonf": bonferroni, "p_sidak": sidak, "p_holm": holm}
+
+
+def adjusted(family: Sequence[PValue]) -> list[dict[str, PValue]]:
+    """For each member: p_none, p_bonf, p_sidak, p_holm; the family is its p-values that exist."""
+    known = np.array([p for p in family if not isinstance(p, Absent)], dtype=float)
+    by_method = {name: iter(method(known).tolist()) for name, method in METHODS.items()}
+    return [
+        {"p_none": p, **dict.fromkeys(METHODS, p)}
+        if isinstance(p, Absent)
+        else {"p_none": p, **{name: float(next(values)) for name, values in by_method.items()}}
+        for p in family
+    ]
+
+
+def holm_by_name(family: Mapping[str, PValue]) -> dict[str, PValue]:
+    """Holm-adjusted p by name; an absent p stays absent and does not count."""
+    return {
+        name: row["p_holm"]
+        for name, row in zip(family, adjusted(list(family.values())), strict=True)
+    }

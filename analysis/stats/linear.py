@@ -1,0 +1,44 @@
+"""Least squares with columns added to a base: the incremental F test, and one added slope."""
+
+import numpy as np
+from scipy import stats
+
+from analysis.sources.absent import Refusal
+from analysis.sources.frames import Floats
+from analysis.stats.cellmodel import FLAT, Contrast, FTest
+
+
+def added_columns(y: Floats, base: Floats, extra: Floats) -> FTest:
+    """F test of `extra` (n x q) given `base` (n x p), against the error of both together.
+
+    Raises Refusal where the extra columns say nothing that the base has not said, or where no
+    error variance is left.
+    """
+    full = np.column_stack([base, extra])
+    rank = int(np.linalg.matrix_rank(full))
+    df1 = rank - int(np.linalg.matrix_rank(base))
+    df2 = len(y) - rank
+    if df1 < extra.shape[1]:
+        raise Refusal("the effect cannot be told apart from the analysis cells")
+    error = _residual(y, full)
+    sse = float(error @ error)
+    if df2 < 1 or bool((np.abs(error) <= FLAT * np.abs(y).max()).all()):
+        raise Refusal("no error variance is left to test against")
+    without = _residual(y, base)
+    ss = max(0.0, float(without @ without) - sse)
+    f = ss / df1 / (sse / df2)
+    return FTest(df1, df2, ss, sse, f, float(stats.f.sf(f, df1, df2)))
+
+
+def added_slope(y: Floats, base: Floats, column: Floats) -> Contrast:
+    """The slope of one column given `base`, with its standard error, t and p."""
+    test = added_columns(y, base, column[:, None])
+    own = _residual(column, base)
+    estimate = float(own @ y / (own @ own))
+    se = float(np.sqrt(test.mse / (own @ own)))
+    return Contrast(estimate, se, test.df2, estimate / se, test.p)
+
+
+def _residual(y: Floats, x: Floats) -> Floats:
+    coefficients = np.linalg.lstsq(x, y, rcond=None)[0]
+    return np.asarray(y - x @ coefficients, dtype=float)

@@ -1,0 +1,284 @@
+"""A mixed model with a random intercept a participant, which keeps partial rows.
+
+REML for y = X b + u + e with var(u) = tau^2 a participant and var(e) = sigma^2 a row, profiled
+over the one ratio lambda = tau^2/sigma^2 (Bates et al., 2015); Type III F tests on sum-coded
+factors with Satterthwaite degrees of freedom from the observed information (Fai & Cornelius,
+1996; Kuznetsova et al., 2017).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy import optimize, stats
+
+from analysis.sources.absent import Absent, Refusal, Row
+from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE
+from analysis.sources.frames import Floats, Ints, Study
+
+FACTORS = {"knowledge": KNOWLEDGE, "complexity": COMPLEXITY, "adaptivity": ADAPTIVITY}
+TERMS = (
+    ("knowledge",),
+    ("complexity",),
+    ("adaptivity",),
+    ("knowledge", "complexity"),
+    ("knowledge", "adaptivity"),
+    ("complexity", "adaptivity"),
+    ("knowledge", "complexity", "adaptivity"),
+)
+#: Shares of the person variance, tau^2/(tau^2 + sigma^2), between which the optimum is bracketed.
+SHARES = np.linspace(0.0, 0.999, 60)
+
+
+@dataclass(frozen=True)
+class Design:
+    """Sum-coded columns of the saturated 3 x 3 x 2 model, and which belong to which effect.
+
+    `matrix` is rows x 18; `person` numbers the participants from 0.
+    """
+
+    matrix: Floats
+    columns: tuple[str, ...]
+    effects: dict[str, list[int]]
+    person: Ints
+
+
+@dataclass(frozen=True)
+class MixedFit:
+    """The REML fit: fixed effects, their covariance, variances, and the information on these."""
+
+    beta: Floats
+    covariance: Floats
+    var_participant: float
+    var_resid: float
+    loglik: float
+    covariance_slopes: tuple[Floats, Floats]
+    variance_covariance: Floats
+    rows: int
+
+    @property
+    def singular(self) -> bool:
+        """Whether the participants' variance is estimated as nil."""
+        return self.var_participant == 0
+
+    def satterthwaite(self, weights: Floats) -> float:
+        """Degrees of freedom of one linear combination of fixed effects."""
+        if self.singular:
+            return float(self.rows - len(self.beta))
+        variance = weights @ self.covariance @ weights
+        slope = np.array([weights @ part @ weights for part in self.covariance_slopes])
+        return float(2 * variance**2 / (slope @ self.variance_covariance @ slope))
+
+
+def sum_coded(rows: pd.DataFrame) -> Design:
+    """Sum-code the three factors of `rows` (columns participant and the factors)."""
+    main = {name: _sum_columns(rows[name], levels) for name, levels in FACTORS.items()}
+    columns = ["(Intercept)"]
+    parts = [np.ones(len(rows))]
+    effects: dict[str, list[int]] = {}
+    for term in TERMS:
+        names, values = [""], [np.ones(len(rows))]
+        for factor in term:
+            # the first factor's columns vary fastest
+            pairs = [
+                (f"{name}:{factor}{k + 1}" if name else f"{factor}{k + 1}", value * column)
+                for k, column in enumerate(main[factor])
+                for name, value in zip(names, values, strict=True)
+            ]
+            names, values = [name for name, _ in pairs], [value for _, value in pairs]
+        effects[":".join(term)] = list(range(len(columns), len(columns) + len(names)))
+        columns += names
+        parts += values
+    person = pd.factorize(rows["participant"], sort=True)[0].astype(np.int64)
+    return Design(np.column_stack(parts), tuple(columns), effects, person)
+
+
+def _sum_columns(values: pd.Series, levels: tuple[str, ...]) -> list[Floats]:
+    last = (values == levels[-1]).to_numpy(dtype=float)
+    return [(values == level).to_numpy(dtype=float) - last for level in levels[:-1]]
+
+
+class _Profile:
+    """REML of one data set as a function of lambda, by whitening within participants."""
+
+    def __init__(self, y: Floats, x: Floats, person: Ints) -> None:
+        self.y, self.x, self.person = y, x, person
+        self.counts = np.bincount(person).astype(float)
+
+    def whitened(self, values: Floats, lam: float) -> Floats:
+        """(I + lambda J)^-1/2 applied within each participant."""
+        shrink = (1 - 1 / np.sqrt(1 + lam * self.counts)) / self.counts
+        sums = np.zeros((len(self.counts), values.shape[1]))
+        np.add.at(sums, self.person, values)
+        whitened: Floats = values - (shrink[:, None] * sums)[self.person]
+        return whitened
+
+    def solve(self, lam: float) -> tuple[Floats, Floats, float, float]:
+        """beta, (X'W X)^-1, the residual variance and the REML log-likelihood at lambda."""
+        x, y = self.whitened(self.x, lam), self.whitened(self.y[:, None], lam)[:, 0]
+        inverse: Floats = np.linalg.inv(x.T @ x).astype(float)
+        beta: Floats = inverse @ (x.T @ y)
+        residual = y - x @ beta
+        df = len(y) - x.shape[1]
+        sigma2 = float(residual @ residual) / df
+        log_v = float(np.log1p(lam * self.counts).sum())
+        log_x = -float(np.linalg.slogdet(inverse)[1])
+        loglik = -0.5 * (log_v + log_x + df * float(1 + np.log(2 * np.pi * sigma2)))
+        return beta, inverse, sigma2, loglik
+
+    def criterion(self, share: float) -> float:
+        """-2 REML log-likelihood at a share tau^2/(tau^2 + sigma^2)."""
+        return -2 * self.solve(share / (1 - share))[3]
+
+    def best_share(self) -> float:
+        """The share that maximises REML; exactly 0 on the boundary."""
+        values = [self.criterion(share) for share in SHARES]
+        at = int(np.argmin(values))
+        lower, upper = SHARES[max(at - 1, 0)], SHARES[min(at + 1, len(SHARES) - 1)]
+        found = optimize.minimize_scalar(
+            self.criterion, bounds=(lower, upper), method="bounded", options={"xatol": 1e-10}
+        )
+        return 0.0 if values[0] <= found.fun + 1e-10 else float(found.x)
+
+
+def fit_random_intercept(y: Floats, x: Floats, person: Ints) -> MixedFit:
+    """REML fit of a random intercept a person (y: rows; x: rows x p; person: numbers from 0).
+
+    x has full rank. Raises Refusal where it leaves no residual degrees of freedom, where nobody has
+    two rows, and where residuals are nil.
+    """
+    if len(y) <= x.shape[1]:
+        raise Refusal(f"{len(y)} rows cannot carry {x.shape[1]} fixed effects")
+    if np.bincount(person).max() < 2:
+        raise Refusal("nobody has both rounds, so person and residual cannot be told apart")
+    profile = _Profile(y, x, person)
+    if profile.solve(0.0)[2] <= (1e-10 * float(np.abs(y).max())) ** 2:
+        raise Refusal("nobody differs from their cell's mean, so there is no error variance")
+    share = profile.best_share()
+    if share >= SHARES[-2]:
+        raise Refusal("the rounds of a person differ by their cell's means alone")
+    lam = share / (1 - share)
+    beta, inverse, sigma2, loglik = profile.solve(lam)
+    slopes, information = _variance_information(profile, lam, sigma2, inverse)
+    if lam > 0 and bool((np.linalg.eigvalsh(information) <= 0).any()):
+        raise Refusal("the likelihood is flat at its top, so the variances are not identified")
+    return MixedFit(
+        beta=beta,
+        covariance=sigma2 * inverse,
+        var_participant=lam * sigma2,
+        var_resid=sigma2,
+        loglik=loglik,
+        covariance_slopes=slopes,
+        variance_covariance=np.linalg.pinv(information).astype(float),
+        rows=len(y),
+    )
+
+
+def _variance_information(
+    profile: _Profile, lam: float, sigma2: float, inverse: Floats
+) -> tuple[tuple[Floats, Floats], Floats]:
+    """Slopes of the fixed effects' covariance, and the observed REML information.
+
+    With P = V^-1 - V^-1 X C X' V^-1 and V_i = dV/d(tau^2, sigma^2), the information is
+    y'P V_i P V_j P y - tr(P V_i P V_j)/2, and dC = C X' V^-1 V_i V^-1 X C.
+    """
+    n = len(profile.y)
+    same = (profile.person[:, None] == profile.person[None, :]).astype(float)
+    weights = profile.whitened(profile.whitened(np.eye(n), lam).T, lam) / sigma2
+    wx = weights @ profile.x
+    covariance = sigma2 * inverse
+    projector = weights - wx @ covariance @ wx.T
+    fitted = projector @ profile.y
+    parts = (same, np.eye(n))
+    projected = [projector @ part for part in parts]
+    tilted = [part @ fitted for part in parts]
+    information = np.array(
+        [
+            [
+                tilted[i] @ projector @ tilted[j] - np.sum(projected[i] * projected[j].T) / 2
+                for j in range(2)
+            ]
+            for i in range(2)
+        ]
+    )
+    slopes = [covariance @ wx.T @ part @ wx @ covariance for part in parts]
+    return (slopes[0], slopes[1]), information
+
+
+def _f_test(fit: MixedFit, columns: list[int]) -> tuple[float, int, float, float]:
+    """F, its two degrees of freedom and p of the hypothesis that these columns are nil.
+
+    The denominator combines the Satterthwaite df of the hypothesis's principal directions.
+    """
+    block = fit.covariance[np.ix_(columns, columns)]
+    values, vectors = np.linalg.eigh(block)
+    q = len(columns)
+    t_squared = (vectors.T @ fit.beta[columns]) ** 2 / values
+    f = float(t_squared.sum()) / q
+    dfs = []
+    for direction in vectors.T:
+        weights = np.zeros(len(fit.beta))
+        weights[columns] = direction
+        dfs.append(fit.satterthwaite(weights))
+    df2 = dfs[0] if q == 1 else _combined_df(np.array(dfs), q)
+    return f, q, df2, float(stats.f.sf(f, q, df2))
+
+
+def _combined_df(dfs: Floats, q: int) -> float:
+    if np.ptp(dfs) < 1e-8 * dfs.mean():
+        return float(dfs.mean())
+    if bool((dfs <= 2).any()):
+        return 2.0
+    expected = float((dfs / (dfs - 2)).sum())
+    return 2 * expected / (expected - q)
+
+
+def mixed_model(study: Study, outcome: str) -> Row:
+    """Fixed effects, variances and Type III tests of one outcome, on every answered round.
+
+    Where a cell of the three factors has no rows the effects have no estimate: the variances are
+    then those of the model with one mean a filled cell. Raises Refusal where there are no knowledge
+    groups or the model cannot be fitted.
+    """
+    study.need_groups()
+    people = study.participants[["knowledge", "complexity"]]
+    rows = study.rounds.join(people, on="participant").dropna(subset=[outcome, "knowledge"])
+    if rows.empty:
+        raise Refusal(f"nobody has an answer for {outcome}")
+    design = sum_coded(rows)
+    filled, cell = np.unique(design.matrix, axis=0, return_inverse=True)
+    complete = len(filled) == design.matrix.shape[1]
+    matrix = design.matrix if complete else np.eye(len(filled))[cell.ravel()]
+    fit = fit_random_intercept(rows[outcome].to_numpy(dtype=float), matrix, design.person)
+    effects = (
+        _effect_rows(fit, design)
+        if complete
+        else dict.fromkeys(
+            ("reml_loglik", "fixef", "anova"),
+            Absent("a cell of knowledge x complexity x adaptivity has no rows"),
+        )
+    )
+    return {
+        "n_rows": fit.rows,
+        "n_participants": int(design.person.max()) + 1,
+        "var_participant": fit.var_participant,
+        "var_resid": fit.var_resid,
+        "singular": fit.singular,
+        **effects,
+    }
+
+
+def _effect_rows(fit: MixedFit, design: Design) -> Row:
+    errors = np.sqrt(np.diag(fit.covariance))
+    tests = {effect: _f_test(fit, columns) for effect, columns in design.effects.items()}
+    return {
+        "reml_loglik": fit.loglik,
+        "fixef": [
+            {"term": term, "est": float(estimate), "se": float(error)}
+            for term, estimate, error in zip(design.columns, fit.beta, errors, strict=True)
+        ],
+        "anova": [
+            {"effect": effect, "F": f, "df1": q, "df2": df2, "p": p}
+            for effect, (f, q, df2, p) in tests.items()
+        ],
+    }

@@ -1,0 +1,130 @@
+"""`ana play` and `ana replay`: straight into a screen."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import fields, replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+import msgspec
+
+from game.coach.presets import PRESETS
+from game.coach.spec import parse_coach
+from game.errors import AnaError
+from game.places import sessions_folder
+from game.screens.play.app import PlayOptions, run_play, run_replay
+from game.world import load_building
+from game.world.settings import MissionSettings
+
+DEFAULT_BUILDING = "harbour"
+MINUTE_MS = 60_000
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+def mission_options(command: _Command) -> _Command:
+    """The options that say which mission is played."""
+    options = (
+        click.option(
+            "--building",
+            default=DEFAULT_BUILDING,
+            show_default=True,
+            metavar="NAME|PATH",
+            help="A building that comes with ana, or the path of your own.",
+        ),
+        click.option(
+            "--coach",
+            default="ana",
+            show_default=True,
+            help="ana adapts its level; static does not; FILE.py:CLASS is your own.",
+        ),
+        click.option("--preset", help=f"How ana adapts: {', '.join(PRESETS)}."),
+        click.option("--level", type=int, help="The level of a static coach: 1, 2 or 3."),
+        click.option("--seed", type=int, help="Repeats a mission exactly.  [default: a new one]"),
+        click.option(
+            "--log",
+            type=click.Path(path_type=Path, file_okay=False),
+            metavar="DIR",
+            help="Where journals go.  [default: data/sessions]",
+        ),
+        click.option("--minutes", type=float, help="How long the mission lasts.  [default: 4]"),
+        click.option(
+            "--set",
+            "assignments",
+            multiple=True,
+            metavar="KEY=VALUE",
+            help="Any setting of the mission, as moves_per_second=20; may be given again.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@click.command(name="play")
+@mission_options
+def play(**given: Any) -> int:
+    """Play a mission now."""
+    return run_play(options_of(**given))
+
+
+@click.command(name="replay")
+@click.argument("journal", type=click.Path(path_type=Path))
+def replay_journal(journal: Path) -> int:
+    """Replay the mission in JOURNAL, with what the coach believed at each moment."""
+    return run_replay(journal)
+
+
+def options_of(
+    building: str,
+    coach: str,
+    preset: str | None,
+    level: int | None,
+    seed: int | None,
+    log: Path | None,
+    minutes: float | None,
+    assignments: tuple[str, ...],
+) -> PlayOptions:
+    """The mission that `mission_options` ask for. Raises AnaError, naming the option."""
+    settings = assigned(MissionSettings(), assignments)
+    if minutes is not None:
+        settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
+    seed = int.from_bytes(os.urandom(4)) if seed is None else seed
+    return PlayOptions(
+        building=load_building(building, seed),
+        spec=parse_coach(coach, level, preset),
+        settings=settings,
+        seed=seed,
+        log_dir=log or sessions_folder(),
+    )
+
+
+def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:
+    """The settings with each KEY=VALUE set. Raises AnaError, naming what is wrong with one."""
+    kinds = {field.name: type(getattr(settings, field.name)) for field in fields(settings)}
+    for assignment in assignments:
+        name, equals, value = assignment.partition("=")
+        place = f"--set {assignment}"
+        if not equals:
+            raise AnaError("this is not KEY=VALUE", place=place)
+        if name not in kinds:
+            near = get_close_matches(name, kinds, n=1)
+            mend = f"Did you mean {near[0]}?" if near else f"There are {', '.join(kinds)}."
+            raise AnaError(f"there is no setting '{name}'", place=place, mend=mend)
+        try:
+            converted = msgspec.convert(value, kinds[name], strict=False)
+        except msgspec.ValidationError as error:
+            raise AnaError(f"{name} cannot be '{value}': {error}", place=place) from error
+        settings = _checked(place, settings, **{name: converted})
+    return settings
+
+
+def _checked(place: str, settings: MissionSettings, **changes: Any) -> MissionSettings:
+    try:
+        return replace(settings, **changes)
+    except ValueError as error:
+        raise AnaError(str(error), place=place) from error

@@ -1,0 +1,64 @@
+"""`ana simulate`: a whole study with simulated people."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import click
+
+from game.coach.presets import PRESETS
+from game.coach.spec import DEFAULT_PRESET
+from game.rescuers.person import POPULATIONS
+from game.simulation.simulated_study import Workers, simulate
+from game.simulation.workers import cores, here, on_cluster, on_cores
+
+
+@click.command(name="simulate")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option("--participants", type=click.IntRange(1, 9999), required=True, metavar="N")
+@click.option("--seed", type=click.IntRange(0), required=True, help="Decides everything.")
+@click.option("--jobs", type=click.IntRange(1), help="Processes here.  [default: all cores]")
+@click.option("--scheduler", metavar="ADDRESS", help="A dask scheduler that does the work.")
+@click.option(
+    "--population",
+    type=click.Choice(list(POPULATIONS)),
+    default="default",
+    show_default=True,
+    help="What kind of people take part.",
+)
+@click.option(
+    "--preset",
+    type=click.Choice(list(PRESETS)),
+    help=f"How the adaptive instructor of a new study adapts.  [default: {DEFAULT_PRESET}]",
+)
+def command(
+    folder: Path,
+    participants: int,
+    seed: int,
+    jobs: int | None,
+    scheduler: str | None,
+    population: str,
+    preset: str | None,
+) -> None:
+    """Let N simulated people take part in the study DIR, which is made where it is new.
+
+    Their journals have the form of everybody's and say that they are simulated; they are the same
+    for the same seed, whoever computes them. Run it again to go on after an interruption.
+    """
+    workers = _workers(jobs, scheduler)
+    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset)
+    before = next(progress)
+    with click.progressbar(length=participants, label="Simulating", show_pos=True) as bar:
+        bar.update(before)
+        for done in progress:
+            bar.update(done - before)
+            before = done
+    click.echo(f"{folder}: {participants} simulated participants")
+
+
+def _workers(jobs: int | None, scheduler: str | None) -> Workers:
+    if scheduler is not None:
+        return partial(on_cluster, address=scheduler)
+    jobs = jobs or cores()
+    return here if jobs == 1 else partial(on_cores, jobs=jobs)

@@ -1,0 +1,26 @@
+"""`ana watch`: a simulated rescuer in the screen of a mission."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import click
+
+from game.commands.ana_play import mission_options, options_of
+from game.rescuers.catalogue import LITERAL, RESCUERS, character
+from game.screens.play.app import run_watch
+
+
+@click.command(name="watch")
+@mission_options
+@click.option(
+    "--rescuer",
+    default=LITERAL,
+    show_default=True,
+    metavar="NAME",
+    help=f"Who plays: {', '.join(RESCUERS)}.",
+)
+def watch(rescuer: str, **given: Any) -> int:
+    """Watch a simulated rescuer play a mission."""
+    return run_watch(replace(options_of(**given), rescuer=character(rescuer).name))

@@ -1,0 +1,1 @@
+"""The journal: its records, how they are written and read, and what a whole journal tells."""

@@ -1,0 +1,31 @@
+"""Journals of earlier schemas, read as if they were of today's.
+
+To change the schema: count up `SCHEMA_VERSION`, add to `UPGRADES` the pure function that turns the
+fields of one record of the version before into those of the next, and leave a golden journal of
+the old version in `tests/data/journals/`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from game.journal.records import SCHEMA_VERSION
+
+Fields = dict[str, Any]
+"""One line of a journal as plain JSON values: the envelope's fields and the record's."""
+
+Upgrade = Callable[[Fields], Fields]
+
+UPGRADES: Mapping[int, Upgrade] = {}
+"""From schema version n to n + 1, for every version before the present one."""
+
+
+def upgraded(fields: Fields, schema: int, upgrades: Mapping[int, Upgrade]) -> Fields:
+    """The fields of a record written under `schema` as the present schema has them.
+
+    Raises KeyError when there is no way from `schema`.
+    """
+    for version in range(schema, SCHEMA_VERSION):
+        fields = upgrades[version](fields)
+    return fields

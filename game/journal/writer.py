@@ -1,0 +1,256 @@
+"""The journal being written: one JSON object a line, one file a session."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+import threading
+from collections import deque
+from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
+from functools import lru_cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Self
+
+import msgspec
+
+from game import __version__
+from game.journal.clock import Clock, Reading, SystemClock
+from game.journal.reader import parse_journal
+from game.journal.records import (
+    SCHEMA_VERSION,
+    Allocated,
+    Consented,
+    Envelope,
+    FreeText,
+    Interruption,
+    MissionAbandoned,
+    Phase,
+    PhaseEnded,
+    PracticeChecked,
+    PreferenceGiven,
+    QuestionnaireAnswer,
+    QuizAnswer,
+    QuizSubmitted,
+    Record,
+    Resumed,
+    SessionStarted,
+    Terminal,
+    Versions,
+    Withdrawn,
+)
+from game.journal.sink import FileSink, MemorySink, Sink
+from game.world.events import MissionEnded, Rescued
+
+JUMP_MS = 2_000
+"""Wall clock and steady clock disagree by more than this only if the machine slept or the wall
+clock was set; smaller corrections are those of a time service."""
+
+LASTING = frozenset(
+    {
+        Rescued,
+        MissionEnded,
+        MissionAbandoned,
+        Consented,
+        PracticeChecked,
+        Allocated,
+        PhaseEnded,
+        QuizAnswer,
+        QuizSubmitted,
+        QuestionnaireAnswer,
+        PreferenceGiven,
+        FreeText,
+        Withdrawn,
+    }
+)
+"""The records for which the disk is waited."""
+
+_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+_encoder = msgspec.json.Encoder()
+
+
+class Journal:
+    """One segment of one journal. Every method but `enter` raises JournalError.
+
+    A record appended has reached the operating system when `append` or `extend` returns. Where
+    `awaits_disk` tells that something was appended that must survive the machine as well (an
+    answer, a rescue, the end of a phase), `wait_durable` comes before the next painting. When the
+    wall clock and the steady clock part company between two records, an `interruption` is put
+    between them.
+
+    All that appends may be called by a signal's handler, at any moment: what comes in the middle
+    of a write is written right after it, by whoever is writing. What a sink refused stays first in
+    line, so everything that follows is refused as well.
+    """
+
+    def __init__(self, sink: Sink, clock: Clock, *, seq: int = 0, segment: int = 0) -> None:
+        self.sink = sink
+        self.awaits_disk = False
+        self.phase: Phase = "session"
+        self.round = 0
+        self._clock = clock
+        self._began = self._latest = clock.read()
+        self._seq = seq
+        self._segment = segment
+        self._waiting: deque[Sequence[Record]] = deque()
+        self._writing = threading.Lock()
+
+    @classmethod
+    def create(cls, path: Path, started: SessionStarted, clock: Clock | None = None) -> Self:
+        """Begin the journal at `path`. A file in which not one line was finished is begun anew."""
+        sink = FileSink.begin(path)
+        try:
+            journal = cls(sink, clock or SystemClock())
+            journal.append(started)
+        except BaseException:
+            sink.close()
+            raise
+        return journal
+
+    @classmethod
+    def buffered(cls, path: Path | None, started: SessionStarted, clock: Clock) -> Self:
+        """Begin a journal in memory, written to `path` (None: nowhere) when it is closed."""
+        journal = cls(MemorySink(path), clock)
+        journal.append(started)
+        return journal
+
+    @classmethod
+    def resume(cls, path: Path, terminal: Terminal | None, clock: Clock | None = None) -> Self:
+        """Begin a new segment of the journal at `path`, in the phase and round it broke off in.
+
+        A last record that lacks but its newline is given it, and so counts.
+        """
+        sink = FileSink(path, create=False)
+        try:
+            contents = sink.contents()
+            newline = b"" if contents.endswith(b"\n") else b"\n"
+            before = parse_journal(contents + newline, str(path))
+            last = before.entries[-1].envelope
+            segment = last.segment + 1
+            journal = cls(sink, clock or SystemClock(), seq=last.seq + 1, segment=segment)
+            journal.enter(last.phase, last.round)
+            resumed = Resumed(
+                torn_bytes=before.torn_bytes, versions=versions(terminal), terminal=terminal
+            )
+            sink.write(newline + journal._lines([resumed]))
+        except BaseException:
+            sink.close()
+            raise
+        return journal
+
+    def enter(self, phase: Phase, round_: int = 0) -> None:
+        """From here on records belong to this phase and round."""
+        self.phase, self.round = phase, round_
+
+    def append(self, record: Record) -> None:
+        self.extend((record,))
+
+    def extend(self, records: Sequence[Record]) -> None:
+        """Append records that belong together, in one write."""
+        self._waiting.append(records)
+        self._write_waiting()
+
+    def interrupt(self, signal: str) -> None:
+        """Append the record of a signal, given its name."""
+        self.append(Interruption("hang_up" if signal == "SIGHUP" else "signal", signal=signal))
+
+    def keep(self, sink: Sink) -> None:
+        """From here on write to `sink`, beginning with all that this journal has in memory."""
+        with self._writing:
+            assert isinstance(self.sink, MemorySink)
+            sink.write(bytes(self.sink.data))
+            self.sink = sink
+        self._write_waiting()
+
+    def flush_durably(self) -> None:
+        """Wait for the disk: some milliseconds, so never on an event loop."""
+        self.awaits_disk = False
+        self.sink.flush_durably()
+
+    async def wait_durable(self) -> None:
+        """`flush_durably` off the event loop."""
+        await asyncio.to_thread(self.flush_durably)
+
+    def close(self) -> None:
+        """Flush durably and end the segment. Closing twice does no harm.
+
+        What a handler appends meanwhile is not recorded any more.
+        """
+        with self._writing:
+            self.sink.close()
+
+    def _write_waiting(self) -> None:
+        """Write what waits, unless a write is under way: that one goes on until nothing waits.
+
+        A handler may run between any two steps here, so what waits is looked at once more after
+        the lock is let go.
+        """
+        while self._waiting and self._writing.acquire(blocking=False):
+            try:
+                while self._waiting:
+                    records = self._waiting[0]
+                    self.sink.write(self._lines(records))
+                    self.awaits_disk |= not LASTING.isdisjoint(map(type, records))
+                    self._waiting.popleft()
+            finally:
+                self._writing.release()
+
+    def _lines(self, records: Sequence[Record]) -> bytes:
+        now = self._clock.read()
+        broke_in = interruption(self._latest, now)
+        self._latest = now
+        t_ms, utc = now.steady_ms - self._began.steady_ms, utc_text(now.utc_ms)
+        envelope = Envelope(0, self._segment, t_ms, utc, self.phase, self.round)
+        rest = _encoder.encode(envelope)[len(b'{"seq":0') : -1]
+        lines = bytearray()
+        for record in (broke_in, *records) if broke_in else records:
+            lines += b'{"seq":%d%b,%b\n' % (self._seq, rest, _encoder.encode(record)[1:])
+            self._seq += 1
+        return bytes(lines)
+
+
+def utc_text(utc_ms: int) -> str:
+    """Milliseconds since 1970 as journals write them: 2000-01-01T00:00:00.000Z."""
+    seconds, ms = divmod(utc_ms, 1000)
+    return f"{_second_text(seconds)}.{ms:03}Z"
+
+
+@lru_cache(maxsize=16)
+def _second_text(seconds: int) -> str:
+    return (_EPOCH + timedelta(seconds=seconds)).isoformat().removesuffix("+00:00")
+
+
+def interruption(before: Reading, now: Reading) -> Interruption | None:
+    """What befell the machine between two readings: sleep, or a set wall clock."""
+    slept_ms = now.asleep_ms - before.asleep_ms
+    if slept_ms > JUMP_MS:
+        return Interruption("suspended", jump_ms=slept_ms)
+    set_ms = (now.utc_ms - before.utc_ms) - (now.steady_ms - before.steady_ms) - slept_ms
+    if abs(set_ms) > JUMP_MS:
+        return Interruption("clock_step", jump_ms=set_ms)
+    return None
+
+
+def versions(terminal: Terminal | None) -> Versions:
+    """What writes this segment; Textual has a part in it only where there is a terminal."""
+    return Versions(
+        game=__version__,
+        schema=SCHEMA_VERSION,
+        python=".".join(map(str, sys.version_info[:3])),
+        textual=_installed("textual") if terminal else "",
+    )
+
+
+def _installed(package: str) -> str:
+    """The version of an installed package, from the name of its `dist-info` folder.
+
+    The standard library's importlib.metadata tells it too, but takes longer to import than the
+    whole game has for its first picture.
+    """
+    spec = find_spec(package)
+    if spec is None or spec.origin is None:
+        return ""
+    site = Path(spec.origin).parents[1]
+    folders = site.glob(f"{package}-*.dist-info")
+    return next((name.stem.partition("-")[2] for name in folders), "")

@@ -1,0 +1,1 @@
+"""What an experimenter watches while a study runs."""

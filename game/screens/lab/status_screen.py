@@ -1,0 +1,140 @@
+"""The experimenter's screen: who is where in a study, followed every second."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path, PurePath
+from typing import ClassVar
+
+from textual import events
+from textual.app import App, ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import VerticalScroll
+
+from game.errors import AnaError
+from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.signals import lead_out
+from game.screens.widgets.theme import THEMES, theme_name
+from game.study.overview import StatusReader, StudyStatus
+from game.study.roll import SessionStatus
+from game.study.statustext import HEADER, heading, session_cells, totals_line
+
+EVERY_S = 1.0
+
+_STYLES = {
+    "taking part": "going",
+    "left": "quiet",
+    "cut off": "trouble",
+    "finished": "done",
+    "declined": "quiet",
+    "turned away": "quiet",
+}
+
+
+def status_rows(status: StudyStatus) -> list[Row]:
+    """The screen's lines: the study, its totals, a line a session, and what is wrong."""
+    rows: list[Row] = [
+        ((f" {heading(status)}", "title"),),
+        ((f" {totals_line(status.totals)}", "quiet"),),
+        BLANK,
+    ]
+    if not status.sessions:
+        rows.append(((" Nobody has begun yet.", "quiet"),))
+        return rows
+    cells = [session_cells(session) for session in status.sessions]
+    widths = [max(map(len, column)) for column in zip(HEADER, *cells, strict=True)]
+    rows.append((_line(HEADER, widths, "quiet"),))
+    rows += [
+        (_line(line, widths, _style(session)),)
+        for line, session in zip(cells, status.sessions, strict=True)
+    ]
+    if status.problems:
+        rows += [BLANK, ((" Look at:", "title"),)]
+        rows += [((f"  {problem}", "trouble"),) for problem in status.problems]
+    return rows
+
+
+def _line(cells: tuple[str, ...], widths: list[int], style: str) -> tuple[str, str]:
+    padded = (text.ljust(width) for text, width in zip(cells, widths, strict=True))
+    return f" {'  '.join(padded)}", style
+
+
+def _style(session: SessionStatus) -> str:
+    return "trouble" if session.problems else _STYLES[session.state]
+
+
+class StatusTable(Canvas):
+    """Shows the state of a study."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {"title", "quiet", "going", "done", "trouble"}
+
+    DEFAULT_CSS = """
+    StatusTable { width: auto; height: auto; }
+    StatusTable > .title { text-style: bold; }
+    StatusTable > .quiet { color: $ana-quiet; }
+    StatusTable > .going { color: $ana-text; text-style: bold; }
+    StatusTable > .done { color: $ana-high; }
+    StatusTable > .trouble { color: $ana-low; text-style: bold; }
+    """
+
+
+class StatusApp(App[None], inherit_bindings=False):
+    """Follows a study until the experimenter leaves."""
+
+    CSS_PATH: ClassVar[list[str | PurePath]] = [
+        "../widgets/styles/base.tcss",
+        "../widgets/styles/pages.tcss",
+    ]
+    ENABLE_COMMAND_PALETTE = False
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("q,Q,escape,ctrl+c,ctrl+q", "quit", id="status.leave"),
+    ]
+
+    def __init__(self, folder: Path) -> None:
+        theme = theme_name(os.environ)
+        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
+        for known in THEMES:
+            self.register_theme(known)
+        self.theme = theme
+        self.failure: AnaError | None = None
+        self._reader = StatusReader(folder)
+        self._table = StatusTable()
+
+    def compose(self) -> ComposeResult:
+        with VerticalScroll():
+            yield self._table
+        yield KeyLine(("↑ ↓", "scroll"), ("Q", "leave"), id="keys")
+
+    def on_mount(self) -> None:
+        lead_out(lambda _: None, lambda status: self.exit(return_code=status))
+        self._look()
+        self.set_interval(EVERY_S, self._look)
+
+    def on_resize(self, _event: events.Resize) -> None:
+        self._look()
+
+    def _look(self) -> None:
+        try:
+            rows = status_rows(self._reader.look())
+        except AnaError as error:
+            self.failure = error
+            self.exit(return_code=2)
+        else:
+            self._table.draw(rows)
+
+
+def watch_status(folder: Path) -> int:
+    """Follow the study in `folder` on this terminal; the exit status.
+
+    Raises AnaError for what the experimenter can mend.
+    """
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise AnaError("this is not a terminal", mend="Leave --watch out to print the status once.")
+    StatusReader(folder).look()
+    app = StatusApp(folder)
+    app.run(mouse=False)
+    if app.failure is not None:
+        raise app.failure
+    return app.return_code or 0

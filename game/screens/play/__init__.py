@@ -1,0 +1,1 @@
+"""Free play: home, mission, result, replay, and a simulated rescuer to watch."""

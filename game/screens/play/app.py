@@ -1,0 +1,392 @@
+"""The program with the screens: what leads to what, and how it begins and ends.
+
+A screen is imported when it is first shown, so that the first picture of a mission waits for
+nothing that it does not need.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, ClassVar
+
+from textual import events
+from textual.app import App, ComposeResult
+from textual.geometry import Size
+from textual.screen import Screen
+from textual.widgets import Static
+
+from game.errors import AnaError
+from game.places import sessions_folder
+from game.screens.widgets.preferences import (
+    Preferences,
+    load_preferences,
+    preferences_file,
+    save_preferences,
+)
+from game.screens.widgets.signals import lead_out
+from game.screens.widgets.theme import THEMES, theme_name
+from game.world import load_building
+from game.world.building import Building
+from game.world.settings import MissionSettings
+
+if TYPE_CHECKING:
+    from game.coach.spec import CoachSpec
+    from game.journal.writer import Journal
+    from game.screens.play.home import HomeScreen
+    from game.screens.play.live import LiveMission
+    from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
+    from game.screens.play.replay_screen import ReplayScreen
+    from game.screens.play.result import ResultScreen
+    from game.screens.play.watch_screen import WatchScreen
+    from game.session.replay import Replay
+
+
+@dataclass(frozen=True)
+class PlayOptions:
+    """A mission of free play: where, by which rules, with which coach, kept in which folder; and
+    who plays it where it is watched, by the name in `game.rescuers.catalogue`."""
+
+    building: Building
+    spec: CoachSpec
+    settings: MissionSettings
+    seed: int
+    log_dir: Path
+    rescuer: str = "literal"
+
+
+class AnaApp(App[None], inherit_bindings=False):
+    """Every screen in one program; `first` makes the one it begins with."""
+
+    CSS_PATH: ClassVar[list[str | PurePath]] = [
+        "../widgets/styles/base.tcss",
+        "../widgets/styles/mission.tcss",
+        "../widgets/styles/pages.tcss",
+    ]
+    ENABLE_COMMAND_PALETTE = False
+
+    def __init__(
+        self,
+        first: Callable[[AnaApp], None],
+        options: PlayOptions | None = None,
+        preferences: Path | None = None,
+    ) -> None:
+        self._preferences_file = preferences or preferences_file()
+        self.preferences = load_preferences(self._preferences_file)
+        theme = theme_name(os.environ, self.preferences.ground)
+        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
+        for known in THEMES:
+            self.register_theme(known)
+        self.theme = theme
+        self._first = first
+        self._options = options
+        self.failure: AnaError | None = None
+        self.live: LiveMission | None = None
+        self._been_home = False
+        self._opened = False
+
+    # --- beginning and ending -------------------------------------------------------------------
+
+    def compose(self) -> ComposeResult:
+        yield Static("Opening the building …", id="opening")
+
+    def on_mount(self) -> None:
+        lead_out(self._note_signal, self._leave)
+        self.call_after_refresh(self._open)
+
+    def _open(self) -> None:
+        self._opened = True
+        self._first(self)
+        self._mind_size(self.size)
+
+    def _note_signal(self, name: str) -> None:
+        if self.live is not None:
+            self.live.journal.interrupt(name)
+
+    def _leave(self, status: int) -> None:
+        self.exit(return_code=status)
+
+    def on_failed(self, message: Failed) -> None:
+        self.failure = message.error
+        self.exit(return_code=2)
+
+    # --- the window -----------------------------------------------------------------------------
+
+    def on_resize(self, event: events.Resize) -> None:
+        if self._opened:
+            self._mind_size(event.size)
+
+    def _mind_size(self, size: Size) -> None:
+        from game.screens.widgets.dialogs import LEAST_SIZE, TooSmall
+
+        columns, rows = LEAST_SIZE
+        small = size.width < columns or size.height < rows
+        shown = isinstance(self.screen, TooSmall)
+        if small and not shown:
+            self.push_screen(TooSmall())
+        elif shown and not small:
+            self.pop_screen()
+
+    # --- home -----------------------------------------------------------------------------------
+
+    def show_home(self) -> None:
+        """Nothing but the home screen."""
+        from game.screens.play.home import HomeScreen
+
+        self._been_home = True
+        self._replace(HomeScreen(self.preferences))
+
+    def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
+        home = message.sender
+        self._remember(home.preferences)
+        match message.what:
+            case "play":
+                self.play_mission(self._chosen())
+            case "watch":
+                self.watch_mission(self._chosen())
+            case "replay":
+                self._choose_journal()
+            case "howto":
+                self._show_howto()
+            case "theme":
+                self._turn_theme()
+                home.preferences = self.preferences
+            case _:
+                self.exit()
+
+    def _choose_journal(self) -> None:
+        from game.screens.play.journal_list import JournalsScreen, newest_journals
+
+        journals = newest_journals(self._log_dir())
+        self.push_screen(JournalsScreen(journals), self._replay_chosen)
+
+    def _show_howto(self) -> None:
+        from game.screens.widgets.howto import HowToScreen
+
+        self.push_screen(HowToScreen())
+
+    def _log_dir(self) -> Path:
+        return self._options.log_dir if self._options else sessions_folder()
+
+    def _remember(self, preferences: Preferences) -> None:
+        if preferences != self.preferences:
+            self.preferences = preferences
+            save_preferences(self._preferences_file, preferences)
+
+    def _turn_theme(self) -> None:
+        ground = "dark" if self.theme == "ana-light" else "light"
+        self._remember(self.preferences.replaced(ground=ground))
+        self.theme = theme_name(os.environ, self.preferences.ground)
+
+    def _chosen(self) -> PlayOptions:
+        from game.coach.spec import parse_coach
+
+        kind, _, level = self.preferences.coach.partition("-")
+        seed = int.from_bytes(os.urandom(4))
+        settings = self._options.settings if self._options else MissionSettings()
+        return PlayOptions(
+            load_building(self.preferences.building),
+            parse_coach(kind, int(level) if level else None),
+            settings,
+            seed,
+            self._log_dir(),
+        )
+
+    # --- missions -------------------------------------------------------------------------------
+
+    def play_mission(self, options: PlayOptions) -> None:
+        """A person plays."""
+        self._begin(options, lambda: self._mission(options))
+
+    def watch_mission(self, options: PlayOptions) -> None:
+        """A simulated rescuer plays."""
+        self._begin(options, lambda: self._watching(options))
+
+    def _begin(self, options: PlayOptions, make: Callable[[], LiveScreen]) -> None:
+        self._options = options
+        try:
+            screen = make()
+        except AnaError as error:
+            self._say_or_fail("The mission cannot begin", error)
+            return
+        self.live = screen.live
+        self._replace(screen)
+
+    def _mission(self, options: PlayOptions) -> MissionScreen:
+        from game.screens.play.live import LiveMission
+        from game.screens.play.mission_screen import MissionScreen
+        from game.screens.widgets.terminal import this_terminal
+        from game.session.playing import start_free_play
+
+        run, journal = start_free_play(
+            options.building,
+            options.settings,
+            options.spec,
+            options.seed,
+            options.log_dir,
+            this_terminal(*self.size),
+        )
+        return MissionScreen(LiveMission(run, journal), _path(journal))
+
+    def _watching(self, options: PlayOptions) -> WatchScreen:
+        from game.rescuers.catalogue import character
+        from game.screens.play.coachpanel import OverheardCoach
+        from game.screens.play.live import LiveMission
+        from game.screens.play.watch_screen import WatchScreen
+        from game.screens.widgets.terminal import this_terminal
+        from game.session.playing import start_free_play
+
+        building, who = options.building, character(options.rescuer)
+        run, journal = start_free_play(
+            building,
+            options.settings,
+            options.spec,
+            options.seed,
+            options.log_dir,
+            this_terminal(*self.size),
+            rescuer=who.name,
+            build=OverheardCoach.build,
+        )
+        coach = run.coach
+        assert isinstance(coach, OverheardCoach)
+        rescuer = who.make(building, options.settings, options.seed)
+        return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
+
+    def on_finished(self, message: Finished) -> None:
+        from game.journal.reader import read_journal
+        from game.screens.play.mission_story import tell
+        from game.screens.play.result import ResultScreen
+        from game.session.replay import Replay
+
+        self.live = None
+        try:
+            replay = Replay(read_journal(message.journal))
+            replay.seek(replay.duration_ms)
+        except AnaError as error:
+            self._say_or_fail("The journal cannot be read", error)
+            return
+        story = tell(replay)
+        if message.complete or story.actions:
+            self._replace(ResultScreen(story, message.journal))
+        else:
+            self._step_back()
+
+    def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
+        if message.what == "again" and self._options is not None:
+            self.play_mission(replace(self._options, seed=self._options.seed + 1))
+        elif message.what == "replay":
+            self.replay(message.journal)
+        else:
+            self.show_home()
+
+    # --- replay ---------------------------------------------------------------------------------
+
+    def replay(self, journal: Path) -> None:
+        """Replay the first mission of a journal, over the screen that is shown."""
+        from game.journal.reader import read_journal
+        from game.session.replay import Replay
+
+        try:
+            self.show_replay(Replay(read_journal(journal)))
+        except AnaError as error:
+            self._say_or_fail("This cannot be replayed", error)
+
+    def _replay_chosen(self, journal: Path | None) -> None:
+        if journal is not None:
+            self.replay(journal)
+
+    def show_replay(self, replay: Replay) -> None:
+        """Show a replay over whatever is shown."""
+        from game.screens.play.replay_screen import ReplayScreen
+
+        self.push_screen(ReplayScreen(replay))
+
+    def on_replay_screen_mission_wanted(self, message: ReplayScreen.MissionWanted) -> None:
+        from game.screens.play.replay_screen import ReplayScreen
+        from game.session.replay import Replay
+
+        try:
+            replay = Replay(message.transcript, message.number)
+        except AnaError as error:
+            self._say_or_fail("This cannot be replayed", error)
+            return
+        self.switch_screen(ReplayScreen(replay))
+
+    def on_replay_screen_left(self) -> None:
+        if len(self.screen_stack) > 2:
+            self.pop_screen()
+        else:
+            self._step_back()
+
+    # --- the stack of screens -------------------------------------------------------------------
+
+    def _step_back(self) -> None:
+        """Home, for who came from there; else out."""
+        if self._been_home:
+            self.show_home()
+        else:
+            self.exit()
+
+    def _replace(self, screen: Screen[None]) -> None:
+        while len(self.screen_stack) > 2:
+            self.pop_screen()
+        if len(self.screen_stack) == 2:
+            self.switch_screen(screen)
+        else:
+            self.push_screen(screen)
+
+    def _say_or_fail(self, title: str, error: AnaError) -> None:
+        """Tell of an error where the user can go on from; leave with it where nothing is shown."""
+        from game.screens.widgets.dialogs import Notice
+
+        if len(self.screen_stack) > 1:
+            self.push_screen(Notice(title, str(error), key="Back"))
+        else:
+            self.failure = error
+            self.exit(return_code=2)
+
+
+def _path(journal: Journal) -> Path:
+    from game.journal.sink import FileSink
+
+    assert isinstance(journal.sink, FileSink)
+    return journal.sink.path
+
+
+def run_home() -> int:
+    """Open the home screen; the exit status. Raises AnaError for what the user can mend."""
+    return _run(AnaApp(AnaApp.show_home))
+
+
+def run_play(options: PlayOptions) -> int:
+    """Play a mission at once, and go on from there."""
+    return _run(AnaApp(lambda app: app.play_mission(options), options))
+
+
+def run_watch(options: PlayOptions) -> int:
+    """Let a simulated rescuer play, in the same screen."""
+    return _run(AnaApp(lambda app: app.watch_mission(options), options))
+
+
+def run_replay(journal: Path) -> int:
+    """Replay a journal's first mission."""
+    from game.journal.reader import read_journal
+    from game.session.replay import Replay
+
+    replay = Replay(read_journal(journal))
+    return _run(AnaApp(lambda app: app.show_replay(replay)))
+
+
+def _run(app: AnaApp) -> int:
+    if not all(stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)):
+        raise AnaError(
+            "this is not a terminal",
+            mend="Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
+        )
+    app.run(mouse=False)
+    if app.failure is not None:
+        raise app.failure
+    return app.return_code or 0

@@ -1,0 +1,195 @@
+"""What the coach believes: P(g*) against its thresholds, the posterior, the level, and b^HR."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from game.coach.acts import CoachRecord, PosteriorEvaluated
+from game.coach.api import Briefing, Coach
+from game.coach.spec import CoachSpec, build_coach
+from game.journal.thoughts import Thoughts
+from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
+from game.screens.widgets.minimap import Pin
+from game.world.building import Building, Severity, VictimSite
+from game.world.events import MissionEvent
+from game.world.geometry import Cell
+from game.world.observation import Guidance, Observation
+
+LIKELY = ("·", "∘", "○", "◉", "●")
+"""Marks of a victim on the map by its posterior: below .05, .2, .4, .7, and above."""
+_STEPS = (0.05, 0.2, 0.4, 0.7)
+LISTED = 5
+"""So many victims are listed, the most likely first."""
+
+
+class OverheardCoach:
+    """A coach whose records are kept as `thoughts`, for a panel beside a live mission."""
+
+    def __init__(self, coach: Coach, spec: CoachSpec) -> None:
+        self._coach = coach
+        self.spec = spec
+        self.thoughts = Thoughts()
+
+    @classmethod
+    def build(cls, spec: CoachSpec, briefing: Briefing) -> OverheardCoach:
+        return cls(build_coach(spec, briefing), spec)
+
+    @property
+    def guidance(self) -> Guidance:
+        return self._coach.guidance
+
+    @property
+    def next_evaluation_ms(self) -> int | None:
+        return self._coach.next_evaluation_ms
+
+    def begin(self, observation: Observation) -> list[CoachRecord]:
+        return self._heard(self._coach.begin(observation))
+
+    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
+        return self._heard(self._coach.told(event, observation))
+
+    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
+        return self._heard(self._coach.evaluate(at_ms, observation))
+
+    def _heard(self, records: list[CoachRecord]) -> list[CoachRecord]:
+        for record in records:
+            self.thoughts = self.thoughts.after(record)
+        return records
+
+
+def posterior_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
+    """Every victim of the latest evaluation on the map, the more likely the fuller."""
+    if thoughts.evaluation is None:
+        return {}
+    pins = {}
+    for victim in building.victims:
+        chance = thoughts.evaluation.posterior.get(victim.id)
+        if chance is not None:
+            step = sum(chance >= limit for limit in _STEPS)
+            pins[victim.cell] = LIKELY[step], f"likely-{step}"
+    return pins
+
+
+def coach_rows(
+    thoughts: Thoughts, building: Building, columns: int, *, infers: bool = True
+) -> list[Row]:
+    """The panel, `columns` wide: two blocks side by side where there is room. `infers` is whether
+    the coach asks where the rescuer is walking to."""
+    if not infers:
+        level, goal = _level(thoughts, building)
+        return [level, goal, (("this coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
+    left = [*_level(thoughts, building), *_comprehension(thoughts), *_belief(thoughts)]
+    if columns < 48:
+        return [*left, BLANK, *_listed(thoughts, building, columns)]
+    half = 27
+    return beside(left, _listed(thoughts, building, columns - half), half)
+
+
+def _level(thoughts: Thoughts, building: Building) -> list[Row]:
+    if thoughts.level is None:
+        return [(("The coach has not spoken", "quiet"),), BLANK]
+    level: list[Run] = [(f" C{int(thoughts.level)} ", "badge")]
+    issued = thoughts.instruction
+    if issued is not None and issued.fallback:
+        level.append((f" said as C{int(issued.shown_level)}", "quiet"))
+    victims = {victim.id: victim for victim in building.victims}
+    goal: Row = (("no goal", "quiet"),)
+    if thoughts.goal is not None:
+        goal = (("→ ", "quiet"), *_named(victims[thoughts.goal], building, 22))
+    return [tuple(level), goal]
+
+
+def _comprehension(thoughts: Thoughts) -> list[Row]:
+    """P(g*) as a bar with marks at the two thresholds."""
+    evaluation = thoughts.evaluation
+    if evaluation is None:
+        return [(("P(g*) not evaluated yet", "quiet"),), BLANK]
+    verdict = "no evidence" if evaluation.verdict == "none" else evaluation.verdict
+    return [
+        (("P(g*) ", "quiet"), (f"{evaluation.comprehension:.2f}", _zone(evaluation)),
+         (f"  {verdict}", "quiet")),
+        gauge(evaluation, 23),
+    ]  # fmt: skip
+
+
+def gauge(evaluation: PosteriorEvaluated, columns: int) -> Row:
+    """P(g*) from 0 to 1 as a bar, `┃` at each threshold."""
+    full = round(columns * evaluation.comprehension)
+    marks = {
+        min(columns - 1, int(columns * limit))
+        for limit in (evaluation.lower_below, evaluation.raise_above)
+    }
+    zone = _zone(evaluation)
+    return tuple(
+        ("┃", "mark") if at in marks else ("█", zone) if at < full else ("░", "faint")
+        for at in range(columns)
+    )
+
+
+def _zone(evaluation: PosteriorEvaluated) -> str:
+    if evaluation.comprehension < evaluation.lower_below:
+        return "low"
+    return "high" if evaluation.comprehension > evaluation.raise_above else "middle"
+
+
+def _belief(thoughts: Thoughts) -> list[Row]:
+    """b^HR in numbers: what the coach thinks the rescuer knows."""
+    known = f"knows {_counted(len(thoughts.rooms_known), 'room')}"
+    seen = _counted(len(thoughts.victims_known), "victim")
+    rows: list[Row] = [((f"{known}, {seen}", "quiet"),)]
+    if thoughts.ms_per_move is not None:
+        rows.append(((f"{thoughts.ms_per_move / 1000:.2f} s a step", "quiet"),))
+    else:
+        missteps = _counted(thoughts.missteps, "misstep")
+        rows.append(((f"{missteps}, {thoughts.disobeyed} disobeyed", "quiet"),))
+    return rows
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
+def _listed(thoughts: Thoughts, building: Building, columns: int) -> list[Row]:
+    """The most likely goals of the rescuer, by the posterior."""
+    rows: list[Row] = [(("Walking to", "title"),)]
+    if thoughts.evaluation is None:
+        return rows
+    victims = {victim.id: victim for victim in building.victims}
+    ranked = sorted(thoughts.evaluation.posterior.items(), key=lambda item: (-item[1], item[0]))
+    for victim, chance in ranked[:LISTED]:
+        step = sum(chance >= limit for limit in _STEPS)
+        name = _named(victims[victim], building, columns - 5)
+        rows.append(((f"{chance:4.2f} ", f"likely-{step}"), *name))
+    return rows
+
+
+def _named(victim: VictimSite, building: Building, columns: int) -> Sequence[Run]:
+    room = building.room_of(victim)
+    mark = ("● ", "red") if victim.severity is Severity.RED else ("○ ", "blue")
+    name = room.name if room is not None else "hallway"
+    return mark, (name[: columns - 2], "strong")
+
+
+class CoachPanel(Canvas):
+    """Shows the coach's thoughts."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        "badge", "quiet", "strong", "faint", "title", "mark", "low", "middle", "high", "red",
+        "blue", *(f"likely-{step}" for step in range(len(LIKELY))),
+    }  # fmt: skip
+
+    def __init__(self, building: Building, spec: CoachSpec) -> None:
+        super().__init__(id="coach")
+        self._building = building
+        self._infers = spec.kind not in ("static", "pace")
+        self._thoughts = Thoughts()
+
+    def show(self, thoughts: Thoughts) -> None:
+        """Draw these thoughts."""
+        self._thoughts = thoughts
+        columns = self.size.width
+        self.draw(coach_rows(thoughts, self._building, columns, infers=self._infers))
+
+    def on_resize(self) -> None:
+        self.show(self._thoughts)

@@ -1,0 +1,188 @@
+"""The home screen: a title, and what there is to do. Enter starts a mission."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import ClassVar, NamedTuple
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical
+from textual.message import Message
+from textual.screen import Screen
+
+from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
+from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
+from game.screens.widgets.preferences import Preferences
+from game.world import load_building
+
+_LETTERS = (
+    "▄▀▀▀▄  █▄  █  ▄▀▀▀▄",
+    "█▄▄▄█  █ █ █  █▄▄▄█",
+    "█   █  █  ▀█  █   █",
+)
+_SUBTITLE = "a guided rescue"
+_SCENE = (
+    "#################+#################",
+    "#...............................R.#",
+    "+..@..............B...............+",
+    "#.................................#",
+    "#############+#####################",
+)
+_SCENE_KINDS = {
+    "#": Kind.WALL,
+    "+": Kind.DOOR,
+    ".": Kind.FLOOR,
+    "R": Kind.RED,
+    "B": Kind.BLUE,
+    "@": Kind.PLAYER_EAST,
+}
+BUILDINGS = ("harbour", "foundry", "practice")
+COACHES = (
+    ("ana", "ana, who adapts to you"),
+    ("static-1", "step by step (C1)"),
+    ("static-2", "by doors and hallways (C2)"),
+    ("static-3", "by room names (C3)"),
+)
+
+
+class Item(NamedTuple):
+    """A line of the menu; a `choice` changes with left and right."""
+
+    action: str
+    text: str
+    choice: str = ""
+
+
+def scene_rows(glyphs: GlyphSet) -> list[Row]:
+    """A little office under the title, drawn as the mission draws it."""
+    return [tuple(glyphs[_SCENE_KINDS[mark]] for mark in line) for line in _SCENE]
+
+
+@cache
+def _building_name(shipped: str) -> str:
+    return load_building(shipped).name
+
+
+def menu_items(preferences: Preferences) -> tuple[Item, ...]:
+    """The lines of the menu, in order."""
+    return (
+        Item("play", "Play"),
+        Item("building", "  in building", _building_name(preferences.building)),
+        Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
+        Item("watch", "Watch a simulated rescuer"),
+        Item("replay", "Replay a mission"),
+        Item("howto", "How to play"),
+        Item("quit", "Quit"),
+    )
+
+
+def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
+    """The menu as a block of equally wide rows."""
+    rows: list[Row] = []
+    for number, item in enumerate(items):
+        chosen = number == selected
+        choice = f"‹ {item.choice} ›" if item.choice else ""
+        text = f" {'▸' if chosen else ' '} {item.text:<15}{choice}"
+        rows.append(((f"{text:<48}", "selected" if chosen else "item"),))
+    return rows
+
+
+class HomePage(Canvas):
+    """Title, scene and menu."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "letters", "subtitle", "item", "selected"}
+
+    def __init__(self) -> None:
+        super().__init__(id="home")
+        self._items: Sequence[Item] = ()
+        self._selected = 0
+
+    def show(self, items: Sequence[Item], selected: int) -> None:
+        """Draw the menu with one line selected."""
+        self._items, self._selected = items, selected
+        glyphs = PLAIN if self.app.native_ansi_color else SOLID
+        columns = self.size.width
+        title: list[Row] = [((line, "letters"),) for line in _LETTERS]
+        block = [
+            *title, ((_SUBTITLE, "subtitle"),), BLANK, *scene_rows(glyphs), BLANK,
+            *menu_rows(items, selected),
+        ]  # fmt: skip
+        self.draw([centred(row, columns) if width(row) else row for row in block])
+
+    def on_resize(self) -> None:
+        self.show(self._items, self._selected)
+
+
+class HomeScreen(Screen[None]):
+    """Lets one choose what to do; the app does it."""
+
+    class Wanted(Message):
+        """`what` is the action of a menu item, chosen on `sender`."""
+
+        def __init__(self, what: str, sender: HomeScreen) -> None:
+            super().__init__()
+            self.what = what
+            self.sender = sender
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("up,k,w,shift+tab", "move(-1)", id="home.up"),
+        Binding("down,j,s,tab", "move(1)", id="home.down"),
+        Binding("left,h,a", "change(-1)", id="home.left"),
+        Binding("right,l,d", "change(1)", id="home.right"),
+        Binding("enter,space", "choose", id="home.choose"),
+        Binding("question_mark,f1", "want('howto')", id="home.howto"),
+        Binding("p,P", "want('play')", id="home.play"),
+        Binding("r,R", "want('replay')", id="home.replay"),
+        Binding("t,T", "want('theme')", id="home.theme"),
+        Binding("q,Q,escape,ctrl+q,ctrl+c", "want('quit')", id="home.quit"),
+    ]
+
+    def __init__(self, preferences: Preferences) -> None:
+        super().__init__()
+        self.preferences = preferences
+        self._page = HomePage()
+        self._selected = 0
+
+    def compose(self) -> ComposeResult:
+        with Vertical(id="home-ground"):
+            yield self._page
+        turn = "" if self.app.native_ansi_color else " · T dark or light"
+        hint = f" ↑ ↓ choose · ← → change · Enter begin{turn} · Q quit"
+        yield Canvas([((hint, ""),)], id="hint")
+
+    def on_mount(self) -> None:
+        self._show()
+
+    def _show(self) -> None:
+        self._page.show(menu_items(self.preferences), self._selected)
+
+    def action_move(self, way: int) -> None:
+        self._selected = (self._selected + way) % len(menu_items(self.preferences))
+        self._show()
+
+    def action_change(self, way: int) -> None:
+        item = menu_items(self.preferences)[self._selected].action
+        if item == "building":
+            building = _next(BUILDINGS, self.preferences.building, way)
+            self.preferences = self.preferences.replaced(building=building)
+        elif item == "coach":
+            names = tuple(name for name, _ in COACHES)
+            coach = _next(names, self.preferences.coach, way)
+            self.preferences = self.preferences.replaced(coach=coach)
+        self._show()
+
+    def action_choose(self) -> None:
+        item = menu_items(self.preferences)[self._selected]
+        if item.choice:
+            self.action_change(1)
+        else:
+            self.action_want(item.action)
+
+    def action_want(self, what: str) -> None:
+        self.app.post_message(self.Wanted(what, self))
+
+
+def _next(names: Sequence[str], name: str, way: int) -> str:
+    return names[(names.index(name) + way) % len(names)]

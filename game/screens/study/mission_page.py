@@ -1,0 +1,105 @@
+"""A mission of a study: the mission screen at the study's size, without pause, and left only for
+good reason."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.screen import ModalScreen
+
+from game.journal.folders import JOURNAL
+from game.screens.play.live import LiveMission, PacedClock
+from game.screens.play.mission_screen import MissionScreen
+from game.screens.study.base import Frame, Stage, body, heading
+from game.screens.study.pages import Signs
+from game.screens.study.timed import TICK_S
+from game.screens.widgets.keyline import KeyLine
+from game.study.tasks import Playing
+from game.study.texts import Page
+
+
+class StudyMission(LiveMission):
+    """A live mission in the journal of a session, which outlives it."""
+
+    def __init__(self, task: Playing) -> None:
+        super().__init__(task.begin(), task.journal, PacedClock(task.clock))
+        self.task = task
+
+    def end(self) -> None:
+        self.task.leave(self.now_ms())
+        self.journal.flush_durably()
+
+    def tick(self) -> None:
+        """Record the exposure."""
+        self.task.tick(self.now_ms())
+
+
+class Reminder(ModalScreen[None]):
+    """The page of practice on walking and signs, over a mission that goes on."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("question_mark,f1,escape,enter,q,space", "close", id="reminder.close"),
+        Binding("ctrl+q,ctrl+c", "close", id="reminder.close.ctrl"),
+    ]
+
+    def __init__(self, frame: Frame, page: Page, *, turning: bool) -> None:
+        super().__init__()
+        self._frame, self._page, self._turning = frame, page, turning
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog wide"):
+            with VerticalScroll():
+                yield heading(self._page)
+                yield body(self._page)
+                yield Signs(turning=self._turning)
+            yield KeyLine(("Enter", self._frame.words.go_on))
+
+    def action_close(self) -> None:
+        self.dismiss()
+
+
+class StudyMissionScreen(MissionScreen):
+    """`q` asks whether to stop taking part, since a mission cannot be left alone."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+c,ctrl+q", "leave", id="study.stop", priority=True),
+    ]
+    live: StudyMission
+
+    def __init__(self, frame: Frame, live: StudyMission, reminder: Page) -> None:
+        super().__init__(live, live.task.home / JOURNAL)
+        self.view.status.timed = self._is_mission
+        self.frame = frame
+        self.reminder = reminder
+
+    @property
+    def _is_mission(self) -> bool:
+        """Whether this is a mission of a round, and no leg of the practice."""
+        return self.live.task.goals is None
+
+    def compose(self) -> ComposeResult:
+        yield Stage(self.frame, self.view)
+
+    def on_mount(self) -> None:
+        if self._is_mission:
+            self.set_interval(TICK_S, self._expose)
+
+    def _expose(self) -> None:
+        if not self._over:
+            with self.kept():
+                self.live.tick()
+
+    def refresh_view(self) -> None:
+        super().refresh_view()
+        if self.live.task.done:
+            self._finish()
+
+    def action_help(self) -> None:
+        turning = self.live.settings.controls == "turn"
+        self.app.push_screen(Reminder(self.frame, self.reminder, turning=turning))
+
+    def action_leave(self) -> None:
+        self.app.push_screen(self.frame.stop_question(), self._left)

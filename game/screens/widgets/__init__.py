@@ -1,0 +1,1 @@
+"""The building blocks of all screens: drawing, maps, the bar, dialogs, colours."""

@@ -1,0 +1,153 @@
+"""Small windows over a screen: questions, help, and messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar
+
+from textual import events
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.screen import ModalScreen
+from textual.widgets import Static
+
+from game.screens.widgets.howto import HowTo
+from game.screens.widgets.keyline import KeyLine
+
+LEAST_SIZE = (80, 24)
+"""Columns and rows below which nothing useful can be shown."""
+
+
+class Question(ModalScreen[bool]):
+    """Asks something that is answered by y or n; Escape is no."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("y,Y", "answer(True)", id="question.yes"),
+        Binding("n,N,escape,q,Q,ctrl+q,ctrl+c", "answer(False)", id="question.no"),
+    ]
+
+    def __init__(self, title: str, text: str, *, yes: str = "Yes", no: str = "No") -> None:
+        super().__init__()
+        self._title, self._text = title, text
+        self._answers = yes, no
+
+    def compose(self) -> ComposeResult:
+        yes, no = self._answers
+        with Vertical(classes="dialog"):
+            yield Static(self._title, classes="title", markup=False)
+            yield Static(self._text, markup=False)
+            yield KeyLine(("y", yes), ("n", no))
+
+    def action_answer(self, answer: bool) -> None:
+        self.dismiss(answer)
+
+
+class Notice(ModalScreen[None]):
+    """Says something until a key closes it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter,escape,space,q,Q", "close", id="notice.close"),
+        Binding("ctrl+q,ctrl+c", "close", id="notice.close.ctrl"),
+    ]
+
+    def __init__(self, title: str, text: str, *, key: str = "Go on") -> None:
+        super().__init__()
+        self._title, self._text, self._key = title, text, key
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog"):
+            yield Static(self._title, classes="title", markup=False)
+            yield Static(self._text, markup=False)
+            yield KeyLine(("Enter", self._key))
+
+    def action_close(self) -> None:
+        self.dismiss()
+
+
+def leave_question() -> Question:
+    """What is asked before a mission is left."""
+    text = "What you have done so far stays in the journal."
+    return Question("Leave the mission?", text, yes="Leave", no="Go on")
+
+
+class Pause(ModalScreen[bool]):
+    """Stands over a mission while its clock stands still; its answer is whether to leave it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter,escape,space,p,P", "go_on", id="pause.go_on"),
+        Binding("question_mark,f1", "help", id="pause.help"),
+        Binding("q,Q,ctrl+q,ctrl+c", "leave", id="pause.leave"),
+    ]
+
+    def __init__(self, help_window: Callable[[], Help]) -> None:
+        super().__init__()
+        self._help = help_window
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog"):
+            yield Static("Paused", classes="title", markup=False)
+            yield Static("The clock stands still.", markup=False)
+            yield KeyLine(("P", "Go on"), ("?", "Help"), ("Q", "Leave"))
+
+    def action_go_on(self) -> None:
+        self.dismiss(False)
+
+    def action_help(self) -> None:
+        self.app.push_screen(self._help())
+
+    def action_leave(self) -> None:
+        self.app.push_screen(leave_question(), self._answered)
+
+    def _answered(self, leave: bool | None) -> None:
+        if leave:
+            self.dismiss(True)
+
+
+class Help(ModalScreen[None]):
+    """The keys, over the mission."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("question_mark,escape,enter,q,Q,space", "close", id="help.close"),
+        Binding("ctrl+q,ctrl+c", "close", id="help.close.ctrl"),
+    ]
+
+    def __init__(self, *, turning: bool, pausing: bool) -> None:
+        super().__init__()
+        self._turning, self._pausing = turning, pausing
+
+    def compose(self) -> ComposeResult:
+        with Vertical(classes="dialog wide"):
+            with VerticalScroll():
+                yield HowTo(turning=self._turning, pausing=self._pausing)
+            yield KeyLine(("Enter", "Back to the mission"))
+
+    def action_close(self) -> None:
+        self.dismiss()
+
+
+class TooSmall(ModalScreen[None]):
+    """Covers everything while the terminal is too small, and goes when it is large enough."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+q,ctrl+c", "ignore", id="small.ignore"),
+    ]
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._text = Static(markup=False)
+
+    def compose(self) -> ComposeResult:
+        yield self._text
+
+    def on_resize(self, event: events.Resize) -> None:
+        columns, rows = LEAST_SIZE
+        size = event.size
+        self._text.update(
+            f"The window is too small: {size.width} x {size.height}.\n"
+            f"ana needs {columns} x {rows}.\n\n"
+            "Enlarge it, or make its letters smaller, and it goes on."
+        )
+
+    def action_ignore(self) -> None:
+        """Leaving is asked about in a window that can be read."""

@@ -1,0 +1,131 @@
+"""How to play: what one sees, the keys, the coach's three ways of speaking."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import ClassVar
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import VerticalScroll
+from textual.screen import Screen
+
+from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
+from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
+from game.screens.widgets.keyline import KeyLine
+from game.world.geometry import Heading
+
+_MARGIN = "  "
+_LEGEND = (
+    (player_kind(Heading.NORTH), "you; the point shows where you face"),
+    (Kind.RED, "red victim: badly hurt, lost at half time"),
+    (Kind.BLUE, "blue victim: hurt, can wait to the end"),
+    (Kind.TREATED_RED, "being treated: stay until it is done"),
+    (Kind.RESCUED, "rescued"),
+    (Kind.EXPIRED, "came too late"),
+    (Kind.WALL, "wall"),
+    (Kind.DOOR, "door: you see through it only beside it"),
+    (Kind.FLOOR, "floor you see now"),
+    (Kind.SEEN_FLOOR, "floor you have seen before"),
+)
+_COMPASS_KEYS = (
+    ("↑ ↓ ← →", "walk; also W A S D and H J K L"),
+    ("Space", "treat the victim under or next to you"),
+)
+_TURN_KEYS = (
+    ("↑", "walk the way you face; also W and K"),
+    ("← →", "turn; also A D and H L"),
+    ("Space", "treat the victim under or next to you"),
+)
+_LEVELS = (
+    ("C1", "every step:", "Turn right. Walk forward 4 steps."),
+    ("C2", "what you pass:", "Enter the third door on your left."),
+    ("C3", "by name:", "Go to the Records Room. Triage the red victim."),
+)
+_TREAT = "Utilize medical equipment."
+_FEW_WORDS = frozenset({Kind.RESCUED, Kind.EXPIRED, Kind.WALL, Kind.FLOOR})
+"""Signs whose meaning is said so shortly that they stand beside the others,"""
+_BESIDE = 49
+"""from this column on."""
+
+
+def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
+    """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
+    long = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
+    short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
+    others = [("P", "pause")] if pausing else []
+    others += [("?", "this help"), ("Q", "leave")]
+    return [
+        _heading("Rescue as many victims as you can. The yellow bar guides you."),
+        *walking_rows(turning=turning),
+        tuple(run for row in _keys(others) for run in row),
+        BLANK,
+        _heading("What you see"),
+        *beside(long, short, _BESIDE),
+        _line("A room's name shows while you see the middle of the room."),
+        BLANK,
+        _heading("What the coach says"),
+        *_levels(),
+        _line("The coach ana chooses among them by how well you find your way."),
+    ]
+
+
+def walking_rows(*, turning: bool) -> list[Row]:
+    """The keys by which the rescuer acts."""
+    return _keys(_TURN_KEYS if turning else _COMPASS_KEYS)
+
+
+def sign_rows(glyphs: GlyphSet) -> list[Row]:
+    """What each sign of the office means."""
+    return [_sign(glyphs, kind, meaning) for kind, meaning in _LEGEND]
+
+
+def _sign(glyphs: GlyphSet, kind: Kind, meaning: str) -> Row:
+    return ((_MARGIN, ""), glyphs[kind], (f"  {meaning}", ""))
+
+
+def _keys(keys: Iterable[tuple[str, str]]) -> list[Row]:
+    return [((_MARGIN, ""), (f" {key:^7} ", "key"), (f"  {does}", "")) for key, does in keys]
+
+
+def _heading(text: str) -> Row:
+    return ((text, "title"),)
+
+
+def _line(text: str) -> Row:
+    return ((_MARGIN + text, ""),)
+
+
+def _levels() -> Iterable[Row]:
+    for level, how, example in _LEVELS:
+        runs: list[Run] = [(_MARGIN, ""), (level, "title"), (f" {how:<15}", "quiet")]
+        yield (*runs, (f" {example} ", "example"))
+    words = (f" {_TREAT} ", "example")
+    yield ((f"{_MARGIN:20}", ""), words, (" means: press ", ""), (" Space ", "key"))
+
+
+class HowTo(Canvas):
+    """The page as a widget."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "title", "key", "quiet", "example"}
+
+    def __init__(self, *, turning: bool = False, pausing: bool = True) -> None:
+        super().__init__()
+        self._turning, self._pausing = turning, pausing
+
+    def on_mount(self) -> None:
+        glyphs = PLAIN if self.app.native_ansi_color else SOLID
+        self.draw(howto_rows(glyphs, turning=self._turning, pausing=self._pausing))
+
+
+class HowToScreen(Screen[None]):
+    """The page as a screen of its own."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,q,Q,enter,question_mark", "app.pop_screen", "Back", id="howto.back"),
+    ]
+
+    def compose(self) -> ComposeResult:
+        with VerticalScroll(classes="page"):
+            yield HowTo()
+        yield KeyLine(("↑ ↓", "scroll"), ("Esc", "back"), id="keys")

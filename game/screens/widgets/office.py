@@ -1,0 +1,197 @@
+"""From an Observation to the rows of the office view: pure, without terminal or mission."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import NamedTuple
+
+from game.screens.widgets.camera import Camera
+from game.screens.widgets.canvas import Row, Run
+from game.screens.widgets.glyphs import GlyphSet, Kind, player_kind, treated_kind, victim_kind
+from game.world.geometry import Cell
+from game.world.observation import Observation, VictimState
+from game.world.plan import Plan, Tile
+
+_RUN = re.compile(rb"(.)\1*", re.DOTALL)
+_ALIKE = bytes([0, 0, 0, *range(3, 256)])
+"""What is unexplored looks the same, whatever it is."""
+
+
+class Label(NamedTuple):
+    """A room's name as it stands in the view: it begins at column `column` of the whole plan."""
+
+    column: int
+    text: str
+
+
+def kinds(observation: Observation) -> bytes:
+    """The `Kind` of every cell of the plan, row by row."""
+    plan, index = observation.plan, observation.plan.index
+    size = len(plan.tiles)
+    shades = (
+        int.from_bytes(plan.tiles)
+        + 3 * int.from_bytes(plan.flags(observation.explored))
+        + 3 * int.from_bytes(plan.flags(observation.visible))
+    )
+    cells = bytearray(shades.to_bytes(size).translate(_ALIKE))
+    for victim in observation.remembered:
+        cells[index(victim.cell)] = victim_kind(victim.severity, victim.state, in_view=False)
+    under_foot = None
+    for victim in observation.victims:
+        cells[index(victim.cell)] = victim_kind(victim.severity, victim.state)
+        if victim.cell == observation.position and victim.state is VictimState.WAITING:
+            under_foot = victim.severity
+    if observation.treatment is not None:
+        treated = observation.treatment
+        cells[index(treated.cell)] = treated_kind(treated.severity)
+    cells[index(observation.position)] = player_kind(observation.heading, under_foot)
+    return bytes(cells)
+
+
+def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
+    """The names in view, by row, on lit floor beside their label cells, covering nobody.
+
+    A name stands about its label cell, in two lines or one, where all of that is free, so that it
+    mostly keeps its place while the rescuer walks. Else it moves aside, or is cut if it fits
+    nowhere.
+    """
+    placed: dict[int, Label] = {}
+    for room in observation.rooms:
+        x, y = room.label
+        free = {
+            row: (start, end)
+            for row in _rows_beside(observation.plan, room.label)
+            if row not in placed
+            for start, end in _free_floor(observation.plan, cells, row)
+            if start - 1 <= x <= end
+        }
+        ways = [
+            {row: _nearest(text, x, free[row]) for row, text in enumerate(lines, start=top)}
+            for lines in _wrappings(room.name)
+            for top in sorted(free, key=lambda row: abs(row - y))
+            if all(
+                top + n in free and len(line) <= _columns(free[top + n])
+                for n, line in enumerate(lines)
+            )
+        ]
+        if not ways and free:
+            widest = max(free, key=lambda row: (_columns(free[row]), -abs(row - y)))
+            cut = _cut(room.name, _columns(free[widest]))
+            ways = [{widest: _nearest(cut, x, free[widest])}]
+        at_home = (way for way in ways if all(_is_about(x, label) for label in way.values()))
+        placed |= next(at_home, ways[0] if ways else {})
+    return placed
+
+
+class Line(NamedTuple):
+    """What one row of the window shows; equal lines are drawn alike."""
+
+    cells: bytes
+    label: Label | None
+
+
+def window_lines(observation: Observation, camera: Camera) -> list[Line]:
+    """The lines of the office in the window of `camera`, from its top; empty beside the plan."""
+    cells, plan = kinds(observation), observation.plan
+    names = labels(observation, cells)
+    left, right = max(0, camera.left), min(plan.width, camera.left + camera.columns)
+    return [
+        Line(cells[y * plan.width + left : y * plan.width + right], names.get(y))
+        if 0 <= y < plan.height
+        else Line(b"", None)
+        for y in range(camera.top, camera.top + camera.rows)
+    ]
+
+
+def line_row(line: Line, camera: Camera, glyphs: GlyphSet) -> Row:
+    """A line of the window, drawn with `glyphs`."""
+    runs = list(_runs(line.cells, glyphs))
+    left = max(0, camera.left)
+    if line.label is not None:
+        runs = _lay_over(runs, line.label, 2 * left)
+    return ((" " * (2 * max(0, -camera.left)), "dark"), *runs) if camera.left < 0 else tuple(runs)
+
+
+def _runs(line: bytes, glyphs: GlyphSet) -> Iterator[Run]:
+    for match in _RUN.finditer(line):
+        text, style = glyphs[line[match.start()]]
+        yield text * (match.end() - match.start()), style
+
+
+def _lay_over(runs: list[Run], label: Label, left: int) -> list[Run]:
+    start = label.column - left
+    end = start + len(label.text)
+    over: list[Run] = []
+    column = 0
+    for text, style in runs:
+        before, after = max(0, start - column), max(0, end - column)
+        if before < len(text) and after > 0:
+            name = label.text[max(0, column - start) : column + len(text) - start]
+            over += [(text[:before], style), (name, "label"), (text[after:], style)]
+        else:
+            over.append((text, style))
+        column += len(text)
+    return [run for run in over if run[0]]
+
+
+@cache
+def _wrappings(name: str) -> list[list[str]]:
+    """A name in one line or broken in two between words, the narrowest way first: it has most
+    room to stay where it is."""
+    words = name.split()
+    cuts = range(1, len(words))
+    broken = ([" ".join(words[:cut]), " ".join(words[cut:])] for cut in cuts)
+    return sorted([[name], *broken], key=lambda lines: max(map(len, lines)))
+
+
+def _about(x: int, text: str) -> int:
+    """The column at which a text is in the middle of cell column `x`."""
+    return 2 * x + 1 - len(text) // 2
+
+
+def _is_about(x: int, label: Label) -> bool:
+    return label.column == _about(x, label.text)
+
+
+def _nearest(text: str, x: int, stretch: tuple[int, int]) -> Label:
+    """A text in a stretch of cells, as near as it goes to the middle of cell column `x`."""
+    start, end = stretch
+    return Label(max(2 * start, min(_about(x, text), 2 * end - len(text))), text)
+
+
+def _columns(stretch: tuple[int, int]) -> int:
+    return 2 * (stretch[1] - stretch[0])
+
+
+def _rows_beside(plan: Plan, label: Cell) -> Iterator[int]:
+    """The row of a label cell, then those of its room within two rows, straight up and down."""
+    x, y = label
+    yield y
+    for way in (-1, 1):
+        for row in (y + way, y + 2 * way):
+            if plan.tile((x, row)) is not Tile.FLOOR:
+                break
+            yield row
+
+
+def _free_floor(plan: Plan, cells: bytes, y: int) -> Iterator[tuple[int, int]]:
+    """The stretches [start, end) of lit floor in row `y` that nobody stands or lies on."""
+    start = y * plan.width
+    for match in _RUN.finditer(cells, start, start + plan.width):
+        if cells[match.start()] == Kind.FLOOR:
+            yield match.start() - start, match.end() - start
+
+
+def _cut(name: str, columns: int) -> str:
+    return name if len(name) <= columns else name[: columns - 1] + "…"
+
+
+def in_reach(observation: Observation) -> Cell | None:
+    """The cell of the waiting victim in view that triage would treat: own, ahead, clockwise."""
+    waiting = {v.cell for v in observation.victims if v.state is VictimState.WAITING}
+    here, way = observation.position, observation.heading
+    around = (way, way.right, way.back, way.left)
+    reach = (here, *(heading.from_cell(here) for heading in around))
+    return next((cell for cell in reach if cell in waiting), None)

@@ -1,0 +1,218 @@
+"""Colours: two themes of many colours, and one of the terminal's own.
+
+A theme gives the names that the style sheets use; nothing else in the screens names a colour.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from textual.theme import Theme
+
+from game.screens.widgets.preferences import Ground
+from game.screens.widgets.terminal import colours, ground
+
+_DARK = {
+    "dark": "#121316",
+    "wall": "#b4b7be",
+    "floor": "#44474d",
+    "dots": "#7c8087",
+    "door": "#d7870f",
+    "seen-wall": "#5f6268",
+    "seen-floor": "#26272b",
+    "seen-door": "#875f00",
+    "red": "#ff5f52",
+    "blue": "#62b6ff",
+    "rescued": "#4fd58a",
+    "expired": "#9aa1b0",
+    "seen-red": "#c2493f",
+    "seen-blue": "#3f86c4",
+    "seen-rescued": "#348a5b",
+    "seen-expired": "#666d7c",
+    "player": "#ffffff",
+    "player-tile": "#8a3ffc",
+    "treated": "#f5d90a",
+    "treated-red": "#a8071a",
+    "treated-blue": "#0b3fb5",
+    "name": "#f3e9c9",
+    "text": "#eaebee",
+    "quiet": "#b0b3ba",
+    "faint": "#6c7077",
+    "hurry": "#d92d20",
+    "on-hurry": "#ffffff",
+    "bar": "#f5d90a",
+    "bar-text": "#000000",
+    "bar-fresh": "#fff7b0",
+    "notice": "#8f1d12",
+    "on-notice": "#ffffff",
+    "map-wall": "#4c4f55",
+    "map-door": "#875f00",
+    "map-floor": "#121316",
+    "known-wall": "#b4b7be",
+    "known-door": "#d7870f",
+    "known-floor": "#303237",
+    "trail": "#f5d90a",
+    "box": "#1d1e22",
+    "line": "#4c4f55",
+    "accent": "#f5d90a",
+    "on-accent": "#14161b",
+    "low": "#ff8a5c",
+    "high": "#4fd58a",
+}
+
+_LIGHT = {
+    "dark": "#e9e5dc",
+    "wall": "#454c5a",
+    "floor": "#ffffff",
+    "dots": "#c3beb3",
+    "door": "#d9822b",
+    "seen-wall": "#a19d93",
+    "seen-floor": "#dcd7cb",
+    "seen-door": "#cfa878",
+    "red": "#c8102e",
+    "blue": "#0b5fc2",
+    "rescued": "#067a46",
+    "expired": "#6b6f78",
+    "seen-red": "#b05560",
+    "seen-blue": "#5b84b5",
+    "seen-rescued": "#548a6d",
+    "seen-expired": "#8d8f94",
+    "player": "#ffffff",
+    "player-tile": "#6929c4",
+    "treated": "#f5d90a",
+    "treated-red": "#a8071a",
+    "treated-blue": "#0b3fb5",
+    "name": "#5a3d00",
+    "text": "#1d2129",
+    "quiet": "#4d535f",
+    "faint": "#a19d93",
+    "hurry": "#c8102e",
+    "on-hurry": "#ffffff",
+    "bar": "#f5d90a",
+    "bar-text": "#000000",
+    "bar-fresh": "#fffbe0",
+    "notice": "#8f1d12",
+    "on-notice": "#ffffff",
+    "map-wall": "#b3aea3",
+    "map-door": "#cfa878",
+    "map-floor": "#e9e5dc",
+    "known-wall": "#454c5a",
+    "known-door": "#d9822b",
+    "known-floor": "#ffffff",
+    "trail": "#a36a00",
+    "box": "#f5f2ea",
+    "line": "#b3aea3",
+    "accent": "#8f6a00",
+    "on-accent": "#ffffff",
+    "low": "#b5460f",
+    "high": "#067a46",
+}
+
+_TERMINAL = {
+    "dark": "ansi_default",
+    "wall": "ansi_default",
+    "floor": "ansi_default",
+    "dots": "ansi_default",
+    "door": "ansi_yellow",
+    "seen-wall": "ansi_bright_black",
+    "seen-floor": "ansi_default",
+    "seen-door": "ansi_default",
+    "red": "ansi_bright_red",
+    "blue": "ansi_bright_blue",
+    "rescued": "ansi_green",
+    "expired": "ansi_bright_black",
+    "seen-red": "ansi_bright_red",
+    "seen-blue": "ansi_bright_blue",
+    "seen-rescued": "ansi_green",
+    "seen-expired": "ansi_bright_black",
+    "player": "ansi_bright_white",
+    "player-tile": "ansi_magenta",
+    "treated": "ansi_yellow",
+    "treated-red": "ansi_red",
+    "treated-blue": "ansi_blue",
+    "name": "ansi_magenta",
+    "text": "ansi_default",
+    "quiet": "ansi_default",
+    "faint": "ansi_bright_black",
+    "hurry": "ansi_red",
+    "on-hurry": "ansi_bright_white",
+    "bar": "ansi_yellow",
+    "bar-text": "ansi_black",
+    "bar-fresh": "ansi_bright_yellow",
+    "notice": "ansi_red",
+    "on-notice": "ansi_bright_white",
+    "map-wall": "ansi_bright_black",
+    "map-door": "ansi_default",
+    "map-floor": "ansi_default",
+    "known-wall": "ansi_default",
+    "known-door": "ansi_yellow",
+    "known-floor": "ansi_default",
+    "trail": "ansi_magenta",
+    "box": "ansi_default",
+    "line": "ansi_bright_black",
+    "accent": "ansi_default",
+    "on-accent": "ansi_default",
+    "low": "ansi_red",
+    "high": "ansi_green",
+}
+
+
+_TERMINAL_VARIABLES = {
+    "ansi-background": "ansi_black",
+    "ansi-foreground": "ansi_white",
+    "border-blurred": "ansi_default",
+    "scrollbar": "ansi_bright_black",
+    "scrollbar-hover": "ansi_bright_black",
+    "scrollbar-active": "ansi_bright_black",
+    "scrollbar-background": "ansi_default",
+    "scrollbar-background-hover": "ansi_default",
+    "scrollbar-background-active": "ansi_default",
+    "block-cursor-foreground": "ansi_black",
+    "block-cursor-background": "ansi_white",
+    "input-cursor-background": "ansi_black",
+    "input-cursor-foreground": "ansi_bright_white",
+    "input-cursor-text-style": "none",
+    "input-selection-background": "ansi_bright_blue",
+    "input-selection-foreground": "ansi_black",
+    "screen-selection-background": "ansi_bright_blue",
+    "screen-selection-foreground": "ansi_black",
+}
+"""What Textual's own style sheet asks of a theme that uses the terminal's colours."""
+
+
+def _theme(name: str, inks: Mapping[str, str], *, dark: bool, ansi: bool = False) -> Theme:
+    return Theme(
+        name=name,
+        primary=inks["accent"],
+        secondary=inks["quiet"],
+        accent=inks["accent"],
+        foreground=inks["text"],
+        background=inks["dark"],
+        surface=inks["box"],
+        panel=inks["box"],
+        boost=inks["box"],
+        warning=inks["treated"],
+        error=inks["red"],
+        success=inks["rescued"],
+        dark=dark,
+        ansi=ansi,
+        variables={
+            **{f"ana-{key}": value for key, value in inks.items()},
+            **(_TERMINAL_VARIABLES if ansi else {}),
+        },
+    )
+
+
+THEMES = (
+    _theme("ana-dark", _DARK, dark=True),
+    _theme("ana-light", _LIGHT, dark=False),
+    _theme("ana-terminal", _TERMINAL, dark=True, ansi=True),
+)
+
+
+def theme_name(environ: Mapping[str, str], wanted: Ground | None = None) -> str:
+    """The theme for this terminal: its own colours where it has 16 or fewer. `wanted` is the user's
+    own choice of ground."""
+    if colours(environ) in ("none", "16"):
+        return "ana-terminal"
+    return f"ana-{wanted or ground(environ)}"

@@ -1,0 +1,167 @@
+"""Beginning and ending a mission together with its journal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import Literal
+
+from game.coach.api import Briefing, Coach
+from game.coach.presets import Preset, preset
+from game.coach.spec import CoachSpec, build_coach
+from game.journal.clock import Clock, SystemClock, VirtualClock
+from game.journal.folders import JOURNAL
+from game.journal.records import (
+    PERSON,
+    RULES_VERSION,
+    MissionAbandoned,
+    MissionStarted,
+    SessionEnded,
+    SessionStarted,
+    Terminal,
+)
+from game.journal.writer import Journal, versions
+from game.session.run import MissionRun, Recorder
+from game.world.building import Building
+from game.world.mission import Mission
+from game.world.settings import MissionSettings
+
+CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
+"""How a coach comes from its description; to play with a coach of one's own, pass another."""
+
+
+def start_free_play(
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    log_dir: Path,
+    terminal: Terminal | None,
+    *,
+    rescuer: str = PERSON,
+    clock: Clock | None = None,
+    build: CoachBuilder = build_coach,
+) -> tuple[MissionRun, Journal]:
+    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
+
+    Raises JournalError when the journal cannot be written.
+    """
+    clock = clock or SystemClock()
+    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
+    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
+    opening = _free_play(session, settings, seed, terminal, rescuer)
+    journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
+    return begin_mission(journal, building, settings, spec, seed, build=build), journal
+
+
+def start_in_memory(
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    *,
+    rescuer: str,
+    path: Path | None = None,
+    clock: Clock | None = None,
+    build: CoachBuilder = build_coach,
+) -> tuple[MissionRun, Journal]:
+    """The same for a simulated rescuer; the journal is written to `path` (None: nowhere) when it
+    is closed. `clock` is the virtual clock the rescuer is driven by; without one, it stands at 0.
+    """
+    opening = _free_play("simulated", settings, seed, None, rescuer)
+    journal = Journal.buffered(path, opening, clock or VirtualClock())
+    return begin_mission(journal, building, settings, spec, seed, build=build), journal
+
+
+def begin_mission(
+    journal: Journal,
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    *,
+    build: CoachBuilder = build_coach,
+) -> MissionRun:
+    """Begin a mission at 0 ms in a journal that is already open.
+
+    Outside a study the records belong to the phase `mission`; within, to that of the journal.
+    """
+    if journal.phase == "session":
+        journal.enter("mission")
+    run = assemble(building, settings, spec, seed, journal.extend, build=build)
+    journal.append(mission_started(building, settings, spec, seed))
+    run.begin()
+    return run
+
+
+def mission_started(
+    building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
+) -> MissionStarted:
+    """The record of what determines a mission."""
+    return MissionStarted(
+        building=building.name,
+        building_text=building.text,
+        building_sha256=building.hash,
+        coach=spec,
+        preset=preset_of(spec),
+        settings=settings,
+        seed=seed,
+        rules_version=RULES_VERSION,
+    )
+
+
+def preset_of(spec: CoachSpec) -> Preset | None:
+    """The preset of the coach, whole; None for a coach without one."""
+    return None if spec.preset is None else preset(spec.preset)
+
+
+def assemble(
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    record: Recorder,
+    *,
+    build: CoachBuilder = build_coach,
+) -> MissionRun:
+    """A mission with its coach, not yet begun; `record` gets all that happens."""
+    coach = build(spec, Briefing(building, settings, seed))
+    return MissionRun(Mission(building, settings), coach, record)
+
+
+def leave_mission(
+    run: MissionRun,
+    journal: Journal,
+    now_ms: int,
+    reason: Literal["quit", "leg_done"] = "quit",
+) -> None:
+    """Let the mission run on to `now_ms`, and abandon it there if it has not ended."""
+    run.advance(now_ms)
+    if not run.ended:
+        journal.append(MissionAbandoned(now_ms, reason))
+
+
+def end_free_play(run: MissionRun, journal: Journal, now_ms: int) -> None:
+    """Leave the mission, and end and close its journal."""
+    leave_mission(run, journal, now_ms)
+    journal.enter("session")
+    journal.append(SessionEnded("finished" if run.ended else "quit"))
+    journal.close()
+
+
+def _free_play(
+    session: str, settings: MissionSettings, seed: int, terminal: Terminal | None, rescuer: str
+) -> SessionStarted:
+    return SessionStarted(
+        session=session,
+        mode="free_play",
+        simulated=rescuer != PERSON,
+        rescuer=rescuer,
+        participant="",
+        versions=versions(terminal),
+        settings=settings,
+        seed=seed,
+        terminal=terminal,
+    )

@@ -1,0 +1,215 @@
+"""Verification: a journal's missions played again from their actions must give the same records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from math import isclose
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from game.coach.spec import build_coach
+from game.errors import AnaError
+from game.journal.failures import JournalError
+from game.journal.missions import RecordedMission, missions, strays
+from game.journal.reader import (
+    Difference,
+    Entry,
+    Transcript,
+    first_discontinuity,
+    parse_journal,
+    read_file,
+)
+from game.journal.records import RULES_VERSION, RunRecord
+from game.session.playing import CoachBuilder, assemble, preset_of
+from game.session.run import MissionRun
+from game.world.events import Acted
+from game.world.reading import parse_building
+
+TOLERANCE = 1e-9
+"""Reals agree within this, absolutely or relatively; everything else agrees exactly."""
+
+NOTHING = "nothing"
+"""Stands in a `Difference` for a record that is not there."""
+
+
+@dataclass(frozen=True)
+class Verification:
+    """The outcome: how much was recomputed, and where the journal first differs, if it does."""
+
+    source: str
+    missions: int
+    records: int
+    torn_bytes: int
+    difference: Difference | None
+
+    @property
+    def reproduced(self) -> bool:
+        return self.difference is None
+
+
+def verify(path: Path, *, build: CoachBuilder = build_coach) -> Verification:
+    """Verify the journal at `path`. Raises JournalError if it is not one."""
+    return verify_transcript(parse_journal(read_file(path), str(path)), build=build)
+
+
+def verify_transcript(transcript: Transcript, *, build: CoachBuilder = build_coach) -> Verification:
+    """Verify a journal whose lines were each read, but not yet held against each other."""
+    played = missions(transcript)
+    differences = (
+        first_discontinuity(transcript.entries),
+        next((_stray(entry) for entry in strays(transcript)), None),
+        next((found for mission in played if (found := _first(mission, build))), None),
+    )
+    return Verification(
+        transcript.source,
+        len(played),
+        sum(len(mission.happened) for mission in played),
+        transcript.torn_bytes,
+        _first_of(*differences),
+    )
+
+
+def verify_files(
+    paths: Iterable[Path],
+    echo: Callable[[str], object],
+    *,
+    build: CoachBuilder = build_coach,
+) -> int:
+    """Verify one journal after the other, saying of each how it went, one line each.
+
+    Returns 0 when all reproduce, 1 when one differs, 2 when one is not a journal.
+    """
+    status = 0
+    for path in paths:
+        try:
+            outcome = verify(path, build=build)
+        except JournalError as error:
+            echo(str(error))
+            status = 2
+            continue
+        echo(_told(outcome))
+        if not outcome.reproduced:
+            status = max(status, 1)
+    return status
+
+
+def _told(outcome: Verification) -> str:
+    if outcome.difference is not None:
+        return f"{outcome.source}: differs: {outcome.difference}"
+    number = f"{outcome.missions} mission{'' if outcome.missions == 1 else 's'}"
+    torn = f" (ignored an unfinished end of {outcome.torn_bytes} bytes)"
+    return (
+        f"{outcome.source}: {number}, {outcome.records} records reproduced"
+        f"{torn if outcome.torn_bytes else ''}"
+    )
+
+
+def _first_of(*differences: Difference | None) -> Difference | None:
+    return min(filter(None, differences), key=lambda found: found.line, default=None)
+
+
+def _stray(entry: Entry) -> Difference:
+    return Difference(entry.line, "type", type_of(entry.record), NOTHING)
+
+
+def _first(mission: RecordedMission, build: CoachBuilder) -> Difference | None:
+    return _unplayable(mission) or _replayed(mission, build)
+
+
+def _unplayable(mission: RecordedMission) -> Difference | None:
+    """What in `mission_started` rules out that playing it again gives the same."""
+    started = mission.started
+    sha256_of_text = sha256(started.building_text.encode()).hexdigest()
+    must_agree = (
+        ("rules_version", started.rules_version, RULES_VERSION),
+        ("building_sha256", started.building_sha256, sha256_of_text),
+        ("preset", started.preset, preset_of(started.coach)),
+    )
+    for field, recorded, expected in must_agree:
+        if recorded != expected:
+            return next(_differing(mission.line, field, recorded, expected))
+    return None
+
+
+def _replayed(mission: RecordedMission, build: CoachBuilder) -> Difference | None:
+    started = mission.started
+    again: list[RunRecord] = []
+    try:
+        building = parse_building(started.building_text, started.building)
+        run = assemble(
+            building, started.settings, started.coach, started.seed, again.extend, build=build
+        )
+    except (AnaError, ValueError) as error:
+        return Difference(mission.line, "mission_started", str(error), "a mission to play")
+    refused = _play(run, mission)
+    return _first_of(refused, _compared(mission, again))
+
+
+def _play(run: MissionRun, mission: RecordedMission) -> Difference | None:
+    """Play the mission's actions; the first that cannot be carried out, if there is one."""
+    run.begin()
+    line = mission.line
+    try:
+        for happening in mission.happened:
+            line, record = happening
+            if isinstance(record, Acted):
+                run.act(record.action, record.at_ms, record.pressed_ms)
+        run.advance(mission.until_ms)
+    except ValueError as error:
+        return Difference(line, "acted", str(error), "an action that can be carried out")
+    return None
+
+
+def _compared(mission: RecordedMission, again: Sequence[RunRecord]) -> Difference | None:
+    """The first recorded record that differs from the one recomputed in its place."""
+    line = mission.line
+    for place, (line, recorded) in enumerate(mission.happened):
+        expected = again[place] if place < len(again) else None
+        if recorded != expected and (found := _difference(line, recorded, expected)):
+            return found
+    if mission.end != "cut" and len(again) > len(mission.happened):
+        return Difference(line + 1, "type", NOTHING, type_of(again[len(mission.happened)]))
+    if mission.end == "dropped":
+        return Difference(line + 1, "type", NOTHING, "mission_ended or mission_abandoned")
+    return None
+
+
+def _difference(line: int, recorded: RunRecord, expected: RunRecord | None) -> Difference | None:
+    wanted = NOTHING if expected is None else type_of(expected)
+    if type_of(recorded) != wanted:
+        return Difference(line, "type", type_of(recorded), wanted)
+    return next(_differing(line, type_of(recorded), recorded, expected), None)
+
+
+def _differing(line: int, field: str, recorded: Any, expected: Any) -> Iterator[Difference]:
+    """Every field, by its path, in which two records or values differ."""
+    for path, old, new in _leaves(msgspec.to_builtins(recorded), msgspec.to_builtins(expected)):
+        yield Difference(line, ".".join((field, *path)), old, new)
+
+
+def _leaves(old: Any, new: Any) -> Iterator[tuple[tuple[str, ...], Any, Any]]:
+    """The places where two values of plain JSON differ, with their paths."""
+    if isinstance(old, float) and isinstance(new, float):
+        if not isclose(old, new, rel_tol=TOLERANCE, abs_tol=TOLERANCE):
+            yield (), old, new
+        return
+    if isinstance(old, dict) and isinstance(new, dict):
+        pairs = [(str(key), old.get(key, NOTHING), new.get(key, NOTHING)) for key in old | new]
+    elif isinstance(old, list | tuple) and isinstance(new, list | tuple) and len(old) == len(new):
+        pairs = [(str(place), *both) for place, both in enumerate(zip(old, new, strict=True))]
+    else:
+        pairs = []
+        if old != new:
+            yield (), old, new
+    for key, before, after in pairs:
+        for path, *values in _leaves(before, after):
+            yield (key, *path), *values
+
+
+def type_of(record: msgspec.Struct) -> str:
+    """The `type` a record is written with."""
+    return str(record.__struct_config__.tag)

@@ -1,0 +1,175 @@
+"""A simulated person who takes part in a study: they read, memorise, label, play and answer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from game.journal.clock import VirtualClock
+from game.journal.records import Preflighted, Terminal
+from game.rescuers.driver import drive
+from game.rescuers.person import BoundedPerson, MapMemory, Population, drawn, memorised
+from game.rescuers.person.experience import Experience
+from game.rescuers.person.memory import nothing_memorised
+from game.rescuers.person.quiz import labels
+from game.rescuers.person.randomness import stream
+from game.rescuers.person.responses import Respondent
+from game.study.protocol import ROUNDS
+from game.study.study_session import StudySession
+from game.study.study_settings import ScreenSize
+from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
+from game.study.texts import Consent, Page
+from game.world.building import Building
+
+TICK_MS = 1_000
+LOOK_MS = 30_000
+"""How long the map of the practice building is looked at."""
+ANSWER_MS = 2_500
+"""To read an item and decide on an answer."""
+UNDERSTOOD = 0.9
+"""Chance of a right answer to each question of the practice check."""
+SECOND_ROUND_WEARINESS = 0.5
+
+
+class SimulatedParticipant:
+    """Moves `clock` on by the time everything takes. One person of `population`, decided by the
+    session's seed."""
+
+    def __init__(self, session: StudySession, clock: VirtualClock, population: Population) -> None:
+        self._session = session
+        self._clock = clock
+        self._seed = session.seed, "person"
+        self._traits = drawn(population, *self._seed)
+        self._respondent = Respondent(population, self._traits, *self._seed)
+        self._maps: dict[str, MapMemory] = {}
+        self._experiences: dict[int, Experience] = {}
+        self._legs = 0
+
+    async def check(self, needed: ScreenSize) -> Preflighted:
+        self._pass(5 * TICK_MS)
+        terminal = Terminal("simulated", "", needed.columns, needed.rows)
+        return Preflighted(terminal, "none", keys_work=True, enough=True)
+
+    async def agree(self, page: Consent) -> bool:
+        self._read(page)
+        return True
+
+    async def read(self, page: Page) -> None:
+        self._read(page)
+
+    async def look(self, page: Page, building: Building) -> None:
+        self._read(page)
+        self._pass(LOOK_MS)
+        self._memorise(building, LOOK_MS)
+
+    async def memorise(self, task: Memorising) -> None:
+        self._memorise(task.building, task.exposure.left_ms)
+        task.exposure.begin()
+        while not task.exposure.over:
+            self._pass(TICK_MS)
+            task.exposure.tick()
+
+    async def label(self, task: Labelling) -> None:
+        memory = self._map_of(task.building)
+        chance = stream(*self._seed, "quiz", self._round)
+        given = labels(memory, self._traits, task.rooms, task.names, chance)
+        task.exposure.begin()
+        for room in task.rooms:
+            task.show(room)
+            self._pass_within(task.exposure, round(self._traits.recall_quiz_ms))
+            if task.exposure.over:
+                return
+            name = given.get(room.label)
+            if name is not None:
+                await task.give(room, name)
+
+    async def play(self, task: Playing) -> None:
+        run = task.begin()
+        zero_ms = self._clock.now_ms
+        if task.goals is None:
+            purpose: tuple[object, ...] = ("mission", self._round)
+        else:
+            self._legs += 1
+            purpose = ("practice", self._legs)
+        second = self._round == ROUNDS[1]
+        person = BoundedPerson(
+            self._traits,
+            self._map_of(task.building),
+            task.settings.controls,
+            stream(*self._seed, *purpose),
+            weariness=SECOND_ROUND_WEARINESS if second else 0.0,
+        )
+
+        def passing(now_ms: int) -> None:
+            self._clock.now_ms = zero_ms + now_ms
+            if task.goals is None:
+                task.tick(now_ms)
+
+        drive(run, person, passing=passing, done=lambda: task.done)
+        if task.goals is None:
+            self._experiences[self._round] = person.experience
+
+    async def choose(self, page: Page, sheet: Sheet) -> None:
+        right = {check.id: check.right for check in self._session.study.items.check}
+        for asked in self._asked(page, sheet):
+            chance = stream(*self._seed, "check", asked.item)
+            wrong = [v for v in range(asked.low, asked.high + 1) if v != right[asked.item]]
+            understood = chance.random() < UNDERSTOOD
+            await sheet.answer(asked, right[asked.item] if understood else chance.choice(wrong))
+
+    async def slide(self, page: Page, sheet: Sheet) -> None:
+        for asked in self._asked(page, sheet):
+            value = self._respondent.slider(asked.item, self._round, self._experience())
+            await sheet.answer(asked, value)
+
+    async def rate(self, page: Page, sheet: Sheet) -> None:
+        for asked in self._asked(page, sheet):
+            value = self._respondent.likert(asked.item, self._round, self._experience())
+            await sheet.answer(asked, value)
+
+    async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
+        self._read(page)
+        first, second = (self._experiences[round_] for round_ in ROUNDS)
+        return self._respondent.preferred(first, second)
+
+    async def explain(self, page: Page) -> str:
+        self._read(page)
+        return ""
+
+    # --- time and memory ------------------------------------------------------------------------
+
+    @property
+    def _round(self) -> int:
+        return self._session.step.round
+
+    def _experience(self) -> Experience:
+        return self._experiences[self._round]
+
+    def _memorise(self, building: Building, looked_ms: int) -> None:
+        chance = stream(*self._seed, "map", building.name, self._round)
+        self._maps[building.name] = memorised(building, looked_ms, self._traits, chance)
+
+    def _map_of(self, building: Building) -> MapMemory:
+        return self._maps.get(building.name) or nothing_memorised(building)
+
+    def _asked(self, page: Page, sheet: Sheet) -> Iterator[Asked]:
+        """What is still to be answered, each after the time that takes."""
+        self._read(page)
+        sheet.begin()
+        for asked in sheet.missing:
+            self._pass(ANSWER_MS)
+            yield asked
+
+    def _read(self, page: Page) -> None:
+        words = len(page.title.split()) + len(page.body.split())
+        self._pass(round(words * self._traits.ms_per_word + self._traits.reaction_ms))
+
+    def _pass(self, ms: int) -> None:
+        self._clock.now_ms += ms
+
+    def _pass_within(self, exposure: Exposure, ms: int) -> None:
+        """Let time go by in a timed phase, second by second, and no longer than it lasts."""
+        until_ms = self._clock.now_ms + min(ms, exposure.left_ms)
+        while self._clock.now_ms < until_ms:
+            self._pass(min(TICK_MS, until_ms - self._clock.now_ms))
+            exposure.tick()

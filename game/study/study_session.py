@@ -1,0 +1,267 @@
+"""One participant's session: its journal, begun or continued, and how far it has come.
+
+Nothing reaches the disk before consent: until then the journal is kept in memory, and of one who
+declines only that is written.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Literal
+
+from msgspec.structs import replace
+
+from game.journal.clock import Clock, SystemClock
+from game.journal.folders import JOURNAL
+from game.journal.reader import Entry, read_file, read_journal
+from game.journal.records import (
+    PERSON,
+    Allocated,
+    Declined,
+    Envelope,
+    Record,
+    SessionEnded,
+    SessionStarted,
+    StudyAmended,
+    TakenOver,
+    Terminal,
+)
+from game.journal.sink import FileSink, Sink
+from game.journal.writer import Journal, versions
+from game.study.answers import Answers
+from game.study.chance import digest, number
+from game.study.folder import Identity, Study, StudyError, amendment
+from game.study.ledger import ending_of
+from game.study.protocol import Progress, Step, progress
+
+CODE_LETTERS = "ABCDEFGHJKMNPQRTUVWXYZ2346789"
+"""Letters and digits that are not taken for one another."""
+CODE_LENGTH = 8
+
+
+class HasWithdrawn(StudyError):
+    """The participant has withdrawn; participants read `Texts.withdrawn`."""
+
+
+class StudySession:
+    """A session under way. Whatever writes raises JournalError when the journal cannot be kept."""
+
+    def __init__(
+        self,
+        study: Study,
+        identity: Identity,
+        journal: Journal,
+        clock: Clock,
+        started: SessionStarted,
+        keep: Callable[[], Sink],
+        before: Sequence[Entry] = (),
+    ) -> None:
+        """`started` opened the journal; `before` are the records of earlier segments. A journal
+        that begins in memory is written to what `keep` makes from consent on."""
+        self.study = study
+        self.identity = identity
+        self.journal = journal
+        self.clock = clock
+        self._started = started
+        self.progress: Progress = progress((entry.envelope, entry.record) for entry in before)
+        self.answers = Answers()
+        for entry in before:
+            self.answers.note(Step(entry.envelope.phase, entry.envelope.round), entry.record)
+        self._make_sink = keep
+        self._kept = bool(before)
+
+    @property
+    def seed(self) -> int:
+        """What all chance in this session comes from; see `chance`."""
+        return session_seed(self.study, self.identity)
+
+    @property
+    def step(self) -> Step:
+        """Where records belong now."""
+        return Step(self.journal.phase, self.journal.round)
+
+    @property
+    def completion_code(self) -> str:
+        """What the participant gives as proof of having taken part."""
+        drawn = digest(self.seed, self.identity.participant, "completion")
+        return "".join(CODE_LETTERS[byte % len(CODE_LETTERS)] for byte in drawn[:CODE_LENGTH])
+
+    def now_ms(self) -> int:
+        """Steady time."""
+        return self.clock.read().steady_ms
+
+    def enter(self, step: Step) -> None:
+        """From here on records belong to `step`."""
+        self.journal.enter(step.phase, step.round)
+
+    def record(self, *records: Record) -> None:
+        """Write records that belong together; the operating system has them on return."""
+        self.journal.extend(records)
+        step = self.step
+        envelope = Envelope(0, 0, 0, "", step.phase, step.round)
+        for record in records:
+            self.progress = self.progress.after(envelope, record)
+            self.answers.note(step, record)
+
+    async def save(self, *records: Record) -> None:
+        """Write records and wait until the disk has them."""
+        self.record(*records)
+        await self.journal.wait_durable()
+
+    async def keep(self) -> None:
+        """From here on the journal is kept: what it holds is written, and all that follows."""
+        if not self._kept:
+            self.journal.keep(self._make_sink())
+            self._kept = True
+        await self.journal.wait_durable()
+
+    async def decline(self, version: str) -> None:
+        """Keep nothing but that the participant declined."""
+        if not self._kept:
+            journal = Journal(self._make_sink(), self.clock)
+            journal.append(replace(self._started, terminal=None, versions=versions(None)))
+            self.journal = journal
+        self.enter(Step("consent"))
+        self.record(Declined(version))
+        await self.finish("declined")
+
+    async def allocate(self) -> None:
+        """Take a slot, or the one taken before. Raises NoPlace when none is left."""
+        study, (mode, participant) = self.study, self.identity
+
+        def take() -> Allocated:
+            study.ledger.agree(study.copy.sha256)
+            settings = study.settings
+            taken = study.ledger.allocate(participant, mode, refill=settings.refill_dropouts)
+            cell = taken.cell
+            first, second = (settings.buildings[index] for index in cell.buildings)
+            return Allocated(
+                slot=taken.slot,
+                refill=taken.refill,
+                memorise_ms=settings.memorise_ms(cell.long_memorise),
+                adaptive_first=cell.adaptive_first,
+                static_level=cell.static_level,
+                buildings=(first, second),
+            )
+
+        await self.save(await asyncio.to_thread(take))
+
+    async def see_place(self) -> None:
+        """See that the participant has a place, or can have one. Raises NoPlace."""
+        await asyncio.to_thread(see_place, self.study, self.identity)
+
+    async def turn_away(self) -> None:
+        """There is no place for the participant; of one who has not agreed nothing is kept."""
+        if self._kept:
+            await self.finish("turned_away")
+
+    async def finish(self, ending: Literal["finished", "declined", "turned_away"]) -> None:
+        """The session is over: say so in the journal and in the ledger."""
+        self.enter(Step("session"))
+        await self.save(SessionEnded(ending))
+        await asyncio.to_thread(
+            self.study.ledger.end_session, self.identity.participant, self.identity.mode, ending
+        )
+
+    def stop(self) -> None:
+        """The participant leaves, and may come back."""
+        self.record(SessionEnded("quit"))
+
+
+def open_session(
+    study: Study,
+    identity: Identity,
+    terminal: Terminal | None,
+    *,
+    silent_ms: int | None = None,
+    clock: Clock | None = None,
+    rescuer: str = PERSON,
+    sink: Callable[[Path], Sink] = FileSink.begin,
+) -> StudySession:
+    """Begin a session, or continue one that broke off.
+
+    Of one that is over nothing more is written. The caller holds the session's lock; `silent_ms`
+    tells that it was taken from a process that had written nothing for so long. A simulated
+    session gives its `clock` and `MemorySink`.
+    Raises JournalError for a journal that cannot be written or read, LedgerError for a study that
+    was changed, NoPlace for a drop-out whose place somebody else has, HasWithdrawn.
+    """
+    clock = clock or SystemClock()
+    path = study.home(identity) / JOURNAL
+    _admit(study, identity)
+
+    def keep() -> Sink:
+        return sink(path)
+
+    if not path.exists() or b"\n" not in read_file(path):
+        started = _opening(study, identity, terminal, rescuer)
+        journal = Journal.buffered(None, started, clock)
+        return StudySession(study, identity, journal, clock, started, keep)
+    transcript = read_journal(path)
+    started, before = transcript.started, transcript.entries
+    if progress((entry.envelope, entry.record) for entry in before).over:
+        journal = Journal.buffered(None, started, clock)
+        return StudySession(study, identity, journal, clock, started, keep, before)
+    journal = Journal.resume(path, terminal, clock)
+    session = StudySession(study, identity, journal, clock, started, keep, before)
+    if silent_ms is not None:
+        session.record(TakenOver(silent_ms))
+    if _study_hash(before) != study.copy.sha256:
+        session.record(StudyAmended(study.copy, amendment(study)))
+    return session
+
+
+def see_place(study: Study, identity: Identity) -> None:
+    """See that a participant has a place, or can have one. Raises NoPlace; writes nothing."""
+    mode, participant = identity
+    study.ledger.see_place(participant, mode, refill=study.settings.refill_dropouts)
+
+
+def _admit(study: Study, identity: Identity) -> None:
+    """See that the ledger lets this participant take part, and let a drop-out come back."""
+    participant, mode = identity.participant, identity.mode
+    study.ledger.agree(study.copy.sha256)
+    ending = ending_of(study.ledger.entries(), participant, mode)
+    if ending == "dropped":
+        study.ledger.come_back(participant, mode)
+    if ending == "withdrawn":
+        raise HasWithdrawn(
+            f"{participant} has withdrawn from the study",
+            place=str(study.folder),
+            mend="Take part under another ID",
+        )
+
+
+def _opening(
+    study: Study, identity: Identity, terminal: Terminal | None, rescuer: str
+) -> SessionStarted:
+    return SessionStarted(
+        session=f"{identity.mode}-{identity.participant}",
+        mode=identity.mode,
+        simulated=rescuer != PERSON,
+        rescuer=rescuer,
+        participant=identity.participant,
+        versions=versions(terminal),
+        settings=study.settings.mission,
+        seed=session_seed(study, identity),
+        terminal=terminal,
+        study=study.copy,
+    )
+
+
+def session_seed(study: Study, identity: Identity) -> int:
+    """The seed of a participant's session."""
+    return number(study.settings.seed, identity.mode, identity.participant, "session")
+
+
+def _study_hash(before: Sequence[Entry]) -> str:
+    """The hash of the settings that the session ran under last."""
+    copies = [
+        entry.record.study
+        for entry in before
+        if isinstance(entry.record, SessionStarted | StudyAmended)
+    ]
+    last = copies[-1]
+    return last.sha256 if last is not None else ""

@@ -1,0 +1,40 @@
+"""Every notebook runs to its end, says that people are simulated, and is stored without outputs."""
+
+from pathlib import Path
+
+import pytest
+
+from analysis.execute import executed, html, notebooks, read, title
+from analysis.pages.style import SIMULATED
+from tests.analysis.simulated import SHIPPED
+
+PARAMETER = 'SOURCE = "../data/simulated"'
+
+
+def test_all_questions_are_there_in_order() -> None:
+    assert [path.name[:2] for path in notebooks()] == [f"{number:02}" for number in range(1, 12)]
+
+
+@pytest.mark.parametrize("path", notebooks(), ids=lambda path: path.stem)
+def test_stored_without_outputs_and_with_one_parameter(path: Path) -> None:
+    cells = read(path).cells
+    code = [cell for cell in cells if cell.cell_type == "code"]
+    assert title(read(path)).endswith("?") or path.stem[:2] in ("01", "11")
+    assert code[0].source.startswith(PARAMETER)
+    assert code[0].metadata.tags == ["parameters"]
+    assert not any(cell.outputs or cell.execution_count for cell in code)
+    assert not any("SOURCE =" in cell.source for cell in code[1:])
+
+
+def test_every_notebook_runs_on_the_shipped_study() -> None:
+    for path, notebook in executed(notebooks()):
+        page = html(notebook)
+        assert SIMULATED in page, path
+        assert "Not there" not in page, path
+        assert "No figure" not in page, path
+        outputs = [out for cell in notebook.cells for out in cell.get("outputs", ())]
+        assert all(out.output_type == "execute_result" for out in outputs), path
+
+
+def test_the_shipped_study_is_small() -> None:
+    assert sum(path.stat().st_size for path in SHIPPED.iterdir()) < 3_000_000
