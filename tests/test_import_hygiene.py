@@ -15,7 +15,7 @@ ON_THE_WAY_TO_PLAY = ("game.cli", "game.commands.ana_play", "game.screens.play.m
 LATER = ("game.rescuers", "game.study", "game.screens.play.result", "game.session.replay")
 """What a mission does not need for its first picture."""
 BEHIND_THE_OPENING = (
-    "game.coach.coaches",
+    "game.coach.kinds.ana",
     "game.screens.play.mission_screen",
     "game.journal.writer",
 )

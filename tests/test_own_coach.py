@@ -1,4 +1,4 @@
-"""The example of docs/write-your-own-coach.md works as it stands."""
+"""The examples of docs/write-your-own-coach.md work as they stand."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pytest
 
 from game.coach.spec import parse_coach
 from game.errors import AnaError
+from game.rescuers.catalogue import character
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.session.playing import start_in_memory
@@ -17,12 +18,13 @@ from game.world import load_building
 from game.world.settings import MissionSettings
 
 PAGE = Path(__file__).parents[1] / "docs" / "write-your-own-coach.md"
-EXAMPLE, COMPARISON = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+EXAMPLE, GUIDED, COMPARISON = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
 
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_with_the_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "nearest.py").write_text(EXAMPLE)
+    (tmp_path / "patient.py").write_text(GUIDED)
     monkeypatch.chdir(tmp_path)
 
 
@@ -39,6 +41,21 @@ def test_the_example_coaches_a_mission_that_verifies(tmp_path: Path) -> None:
     changed = verify(path)
     assert not changed.reproduced
     assert "not the one that was played with" in str(changed.difference)
+
+
+def test_a_coach_on_the_guide_loads_with_dataclasses_and_postponed_annotations(
+    tmp_path: Path,
+) -> None:
+    spec = parse_coach("patient.py:PatientCoach")
+    path = tmp_path / "journal.jsonl"
+    building, settings = load_building("harbour"), MissionSettings()
+    run, journal = start_in_memory(building, settings, spec, 1, rescuer="literal", path=path)
+    drive(run, character("stranger").make(building, settings, 1))
+    journal.close()
+    text = path.read_text()
+    assert '"level_changed"' in text
+    assert '"comprehension":null' in text
+    assert verify(path).reproduced
 
 
 def test_the_comparison_runs_and_ana_plans_better(capsys: pytest.CaptureFixture[str]) -> None:

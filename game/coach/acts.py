@@ -9,6 +9,9 @@ import msgspec
 
 from game.world.geometry import Cell, Heading
 
+GoalReason = Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
+IssueReason = Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"]
+
 
 class Level(IntEnum):
     """The level of abstraction of an instruction (paper 5.1.2)."""
@@ -34,7 +37,7 @@ class GoalSet(CoachAct, frozen=True, tag="goal_set"):
     goal: str
     room: str | None
     route: tuple[str, ...]
-    reason: Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
+    reason: GoalReason
 
 
 class NothingLeft(CoachAct, frozen=True, tag="nothing_left"):
@@ -63,9 +66,7 @@ class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued", kw_only
     heading: Heading
     end: Cell
     treats: bool = False
-    reason: Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"] = (
-        "goal"
-    )
+    reason: IssueReason = "goal"
 
 
 class NoticeTakenDown(CoachAct, frozen=True, tag="notice_taken_down"):
@@ -109,9 +110,11 @@ class PosteriorEvaluated(CoachAct, frozen=True, tag="posterior_evaluated"):
 
 
 class LevelChanged(CoachAct, frozen=True, tag="level_changed"):
+    """`comprehension` is what led to it; None where the coach does not judge by it."""
+
     before: Level
     after: Level
-    comprehension: float
+    comprehension: float | None = None
 
 
 class BeliefChanged(CoachAct, frozen=True, tag="belief_changed"):

@@ -24,7 +24,7 @@ class Briefing:
 class Coach(Protocol):
     """Anything that turns observations of the rescuer into instructions.
 
-    The session calls `begin` once at 0 ms; then, in time order, `told` for every mission event
+    The session calls `begin` once at 0 ms; then, in time order, `on_event` for every mission event
     (the observation is the one right after it) and `evaluate` when `next_evaluation_ms` falls due.
     Each call returns what the coach did, in order, for the journal. `guidance` is what stands on
     the bar after the call. A coach never reads a clock: all times are mission milliseconds.
@@ -40,6 +40,6 @@ class Coach(Protocol):
 
     def begin(self, observation: Observation) -> list[CoachRecord]: ...
 
-    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]: ...
+    def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]: ...
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]: ...

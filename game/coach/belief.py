@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import log2
 
 from game.coach.acts import BeliefChanged
 from game.world.building import Building
@@ -152,16 +151,6 @@ class Belief:
         if room is None or victim in self.victims:
             return self.victim_at(victim, self.space.victims[victim])
         return self.room_at(room, self.space.places[room])
-
-    @property
-    def entropy_bits(self) -> float:
-        """The entropy of the joint distribution of room places and victim cells, in bits."""
-        rooms = len(self.space.places) - len(self.rooms)
-        hidden = len(self.space.victims) - len(self.victims)
-        cells = self.unseen.bit_count()
-        return sum(log2(n) for n in range(1, rooms + 1)) + sum(
-            log2(n) for n in range(cells - hidden + 1, cells + 1)
-        )
 
 
 def belief_change(before: Belief, after: Belief, at_ms: int) -> BeliefChanged | None:

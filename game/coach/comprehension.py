@@ -3,31 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from game.coach.acts import PosteriorEvaluated
+from game.coach.bar import OnBar
 from game.coach.cycle import Alpha
 from game.coach.goal_filter import GoalFilter, StepTable
-from game.coach.goals import Likelihood, instructed_prior, uniform_prior
+from game.coach.goals import instructed_prior, uniform_prior
 from game.coach.levels import LevelState, verdict
 from game.coach.model import Component, Comprehension, HumanModel, Learned
 from game.coach.presets import Preset
 from game.world.building import Building, Room
 from game.world.events import Acted, Expired, MissionEvent, Rescued
-from game.world.floodfill import Floodfills
 from game.world.geometry import Cell
 from game.world.observation import Observation
-
-
-@lru_cache(maxsize=16)
-def step_table(
-    floodfills: Floodfills,
-    goals: tuple[tuple[str, Cell], ...],
-    likelihood: Likelihood,
-    beta: float,
-) -> StepTable:
-    """The table that all missions in one building share."""
-    return StepTable(floodfills, dict(goals), likelihood=likelihood, beta=beta)
 
 
 class ComprehensionLearner:
@@ -38,7 +26,7 @@ class ComprehensionLearner:
 
     alpha: Alpha = frozenset({Component.BELIEF})
 
-    def __init__(self, preset: Preset, building: Building, floodfills: Floodfills) -> None:
+    def __init__(self, preset: Preset, building: Building) -> None:
         self._preset = preset
         self._building = building
         self._room_of = {site.id: building.room_of(site) for site in building.victims}
@@ -46,8 +34,12 @@ class ComprehensionLearner:
         self._goal: str | None = None
         self._position = building.start
         self._began_in: Room | None = None
-        goals = tuple(self._waiting.items())
-        table = step_table(floodfills, goals, preset.likelihood, preset.beta)
+        likelihood, beta, goals = preset.likelihood, preset.beta, dict(self._waiting)
+        floodfills = building.terrain.floodfills
+        table = building.terrain.shared(
+            ("steps", likelihood, beta, tuple(goals.items())),
+            lambda: StepTable(floodfills, goals, likelihood=likelihood, beta=beta),
+        )
         self._filter = GoalFilter(table, building.start, preset.window_moves)
 
     def goal_set(self, goal: str | None, position: Cell) -> None:
@@ -57,7 +49,7 @@ class ComprehensionLearner:
         self._began_in = self._building.room_at(position)
         self._filter.restart(position)
 
-    def observe(self, event: MissionEvent, observation: Observation) -> None:
+    def observe(self, event: MissionEvent, observation: Observation, shown: OnBar | None) -> None:
         match event:
             case Acted(position=position):
                 self._position = position

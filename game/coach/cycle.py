@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, Protocol, TypeVar
 
+from game.coach.bar import OnBar
 from game.coach.model import Component, HumanModel, Learned
 from game.world.events import MissionEvent
 from game.world.observation import Observation
@@ -23,8 +24,9 @@ class LearningProcess(Protocol):
     @property
     def alpha(self) -> Alpha: ...
 
-    def observe(self, event: MissionEvent, observation: Observation) -> None:
-        """Take in something that happened, and what was to be seen right after it."""
+    def observe(self, event: MissionEvent, observation: Observation, shown: OnBar | None) -> None:
+        """Take in something that happened, what was to be seen right after it, and the instruction
+        that stood on the bar meanwhile."""
         ...
 
     def learned(self, model: HumanModel) -> Learned:
@@ -55,10 +57,12 @@ class AdaptiveCycle(Generic[State, Act]):
         """The rescuer sees the building for the first time."""
         self.model = self.model.seeing(observation)
 
-    def observe(self, event: MissionEvent, observation: Observation) -> None:
+    def observe(
+        self, event: MissionEvent, observation: Observation, shown: OnBar | None = None
+    ) -> None:
         """The model's belief follows what happened, and the learning process takes it in."""
         self.model = self.model.after(event, observation)
-        self._learning.observe(event, observation)
+        self._learning.observe(event, observation, shown)
 
     def evaluate(self) -> HumanModel:
         """EVALUATE: put what was learned into the model. Raises ValueError when the learning

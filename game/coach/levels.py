@@ -22,13 +22,6 @@ def verdict(comprehension: float, lower_below: float, raise_above: float) -> Ver
     return "raise" if value > raise_above else "keep"
 
 
-def next_level(
-    level: Level, comprehension: float, lower_below: float = 0.3, raise_above: float = 0.8
-) -> Level:
-    """Algorithm 1: one level down, up, or neither, within C1 and C3."""
-    return _moved(level, verdict(comprehension, lower_below, raise_above))
-
-
 @dataclass(frozen=True)
 class LevelState:
     """The level in force, and what the evaluations within the goal have said so far.

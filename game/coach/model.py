@@ -117,9 +117,7 @@ class HumanModel:
     floodfills: Floodfills = field(repr=False, compare=False)
 
     @classmethod
-    def of(
-        cls, building: Building, settings: MissionSettings, floodfills: Floodfills
-    ) -> HumanModel:
+    def of(cls, building: Building, settings: MissionSettings) -> HumanModel:
         """The estimate before a mission: what its rules say, and a belief that knows nothing."""
         states = StateSpace.of(building)
         start = Belief.prior(states, building.start, building.start_heading)
@@ -131,7 +129,7 @@ class HumanModel:
             observations=Observations(),
             observation_function=building.terrain.sight(settings.sight_radius),
             belief=BeliefEstimate(start),
-            floodfills=floodfills,
+            floodfills=building.terrain.floodfills,
         )
 
     def with_learned(self, learned: Learned) -> HumanModel:

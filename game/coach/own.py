@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 from difflib import get_close_matches
 from hashlib import sha256
 from pathlib import Path
@@ -12,7 +13,7 @@ from game.coach.api import Briefing, Coach
 from game.errors import AnaError
 
 SEPARATOR = ":"
-SURFACE = ("guidance", "next_evaluation_ms", "begin", "told", "evaluate")
+SURFACE = ("guidance", "next_evaluation_ms", "begin", "on_event", "evaluate")
 """What `game.coach.api.Coach` asks for."""
 
 
@@ -38,13 +39,15 @@ def own_coach(source: str, digest: str, briefing: Briefing) -> Coach:
     path, _, name = source.rpartition(SEPARATOR)
     if source_hash(source) != digest:
         raise AnaError("the coach's file is not the one that was played with", place=path)
-    spec = importlib.util.spec_from_file_location(Path(path).stem, path)
+    spec = importlib.util.spec_from_file_location(f"own_coach_{digest}", path)
     if spec is None or spec.loader is None:
         raise AnaError("this is not a Python file", place=path, mend="Its name must end in .py.")
     module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look their module up there
     try:
         spec.loader.exec_module(module)
     except Exception as error:
+        del sys.modules[spec.name]
         raise AnaError(f"the coach's file cannot be run: {error!r}", place=path) from error
     made = getattr(module, name, None)
     if not callable(made):

@@ -136,21 +136,6 @@ class RoutePlanner:
         return {name: max(0, to[index] - 1) for name, to in self._to.items()}
 
 
-def plan_route(
-    floodfills: Floodfills,
-    settings: MissionSettings,
-    position: Cell,
-    time_ms: int,
-    waiting: Mapping[str, VictimSite],
-    *,
-    seed: int,
-    ms_per_move: int,
-) -> Route:
-    """One route without a history; see `RoutePlanner`, which keeps what successive plans share."""
-    planner = RoutePlanner(floodfills, settings, waiting, seed)
-    return planner.plan(position, time_ms, tuple(waiting), ms_per_move=ms_per_move)
-
-
 @dataclass(frozen=True)
 class _Search:
     """Orders of n victims, numbered from 0 as in `names`; number n stands for where and how the

@@ -1,12 +1,9 @@
-"""Which coach plays a mission, as a value that a journal keeps and a command line gives.
-
-The coaches themselves are imported when one is built: the game opens without waiting for them.
-"""
+"""Which coach plays a mission, as a value that a journal keeps and a command line gives."""
 
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import Literal, get_args
+from typing import Any
 
 import msgspec
 
@@ -14,74 +11,76 @@ from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
 from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
+from game.coach.registry import KINDS, Choice
 from game.errors import AnaError
 
-CoachKind = Literal["static", "ana", "pace", "own"]
-
+OWN = "own"
 DEFAULT_LEVEL = Level.C2
 DEFAULT_PRESET = "calibrated"
 
+_GIVE: dict[Choice, str] = {"level": "give a level", "preset": "give a preset"}
+
 
 class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A coach: `ana` adapts its level as the preset says; `static` and `pace` keep theirs; `own`
-    is the class in `source` (`FILE.py:CLASS`), whose file has the SHA-256 `sha256`.
+    """A coach: `kind` is one of `KINDS`, with what may be chosen about it; or `own`, the class in
+    `source` (`FILE.py:CLASS`), whose file has the SHA-256 `sha256`.
 
     Raises ValueError, naming the field, where one is missing, unknown or of no use to the kind.
     """
 
-    kind: CoachKind
+    kind: str
     level: Level | None = None
     preset: str | None = None
     source: str | None = None
     sha256: str | None = None
 
     def __post_init__(self) -> None:
-        own = self.kind == "own"
+        own = self.kind == OWN
+        if not own and self.kind not in KINDS:
+            raise ValueError(f"coach field kind must be one of {', '.join((*KINDS, OWN))}")
         if (self.source is not None, self.sha256 is not None) != (own, own):
             raise ValueError("coach fields source and sha256 go with the kind own, and only there")
-        if own:
-            if self.level is not None or self.preset is not None:
-                raise ValueError(
-                    "coach fields level and preset mean nothing to a coach of one's own"
-                )
-        elif self.kind == "ana":
-            if self.level is not None:
-                raise ValueError("coach field level: ana finds its own; give a preset instead")
-            if self.preset not in PRESETS:
-                raise ValueError(f"coach field preset must be one of {', '.join(PRESETS)}")
-        else:
-            if self.preset is not None:
-                raise ValueError(f"coach field preset: {self.kind} has none; give a level instead")
-            if self.level is None:
-                raise ValueError(f"coach field level: {self.kind} needs one")
+        choices = () if own else KINDS[self.kind].choices
+        for field in _GIVE:
+            given = getattr(self, field) is not None
+            if given and field not in choices:
+                instead = "; " + ", ".join(map(_GIVE.__getitem__, choices)) if choices else ""
+                raise ValueError(f"coach field {field}: {self.kind} has none{instead}")
+            if field in choices and not given:
+                raise ValueError(f"coach field {field}: {self.kind} needs one")
+        if self.preset is not None and self.preset not in PRESETS:
+            raise ValueError(f"coach field preset must be one of {', '.join(PRESETS)}")
 
 
 def parse_coach(kind: str, level: int | None = None, preset: str | None = None) -> CoachSpec:
     """The coach that these names mean, with the usual level or preset where none is given.
 
-    Raises AnaError, with the nearest right name, for a name that is none, and for a level or a
-    preset that the coach does not have. `FILE.py:CLASS` means a coach of one's own.
+    Raises AnaError, with the nearest right name, for an unknown name, and for a level or a preset
+    that the coach does not have. `FILE.py:CLASS` means a coach of one's own.
     """
     if SEPARATOR in kind:
-        return CoachSpec("own", source=kind, sha256=source_hash(kind))
-    kinds = {name: name for name in get_args(CoachKind) if name != "own"}
-    if kind not in kinds:
-        raise _unknown("coach", kind, tuple(kinds))
-    if kind == "ana":
-        if level is not None:
-            mend = "Leave --level out, or give --coach static with it."
-            raise AnaError("the coach ana finds the level itself", place="--level", mend=mend)
-        chosen = DEFAULT_PRESET if preset is None else preset
-        if chosen not in PRESETS:
-            raise _unknown("preset", chosen, tuple(PRESETS))
-        return CoachSpec("ana", preset=chosen)
-    if preset is not None:
-        mend = "Leave --preset out, or give --coach ana with it."
-        raise AnaError(f"the coach {kind} has no presets", place="--preset", mend=mend)
-    chosen_level = DEFAULT_LEVEL if level is None else level
-    if chosen_level not in tuple(Level):
+        return CoachSpec(OWN, source=kind, sha256=source_hash(kind))
+    if kind not in KINDS:
+        raise _unknown("coach", kind, tuple(KINDS))
+    choices = KINDS[kind].choices
+    given: dict[Choice, Any] = {"level": level, "preset": preset}
+    for field, value in given.items():
+        if value is not None and field not in choices:
+            with_it = " or ".join(name for name in KINDS if field in KINDS[name].choices)
+            raise AnaError(
+                f"the coach {kind} has no {field} to choose",
+                place=f"--{field}",
+                mend=f"Leave --{field} out, or give --coach {with_it} with it.",
+            )
+    if preset is not None and preset not in PRESETS:
+        raise _unknown("preset", preset, tuple(PRESETS))
+    if level is not None and level not in tuple(Level):
         raise AnaError(f"there is no level {level}", place="--level", mend="Give 1, 2 or 3.")
-    return CoachSpec(kinds[kind], level=Level(chosen_level))
+    return CoachSpec(
+        kind,
+        level=Level(level or DEFAULT_LEVEL) if "level" in choices else None,
+        preset=(preset or DEFAULT_PRESET) if "preset" in choices else None,
+    )
 
 
 def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
@@ -89,14 +88,13 @@ def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
 
     Raises AnaError where a coach of one's own cannot be loaded.
     """
-    from game.coach.coaches import AdaptiveCoach, PaceCoach, StaticCoach
-
     if spec.source is not None and spec.sha256 is not None:
         return own_coach(spec.source, spec.sha256, briefing)
+    chosen: dict[Choice, Any] = {"level": spec.level}
     if spec.preset is not None:
-        return AdaptiveCoach(briefing, preset(spec.preset))
-    assert spec.level is not None
-    return (PaceCoach if spec.kind == "pace" else StaticCoach)(briefing, spec.level)
+        chosen["preset"] = preset(spec.preset)
+    kind = KINDS[spec.kind]
+    return kind.build(briefing, {field: chosen[field] for field in kind.choices})
 
 
 def _unknown(what: str, name: str, names: tuple[str, ...]) -> AnaError:

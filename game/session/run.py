@@ -131,4 +131,4 @@ class MissionRun:
     def _tell(self, events: Iterable[MissionEvent]) -> None:
         for event in events:
             self._happened.append(event)
-            self._happened += self.coach.told(event, self.mission.observation())
+            self._happened += self.coach.on_event(event, self.mission.observation())

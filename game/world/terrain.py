@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+
 from game.world.floodfill import Floodfills
 from game.world.plan import Plan
 from game.world.sight import Sight
+
+Made = TypeVar("Made")
 
 
 class Terrain:
@@ -18,9 +23,19 @@ class Terrain:
         self.plan = plan
         self.floodfills = Floodfills(plan)
         self._sights: dict[int, Sight] = {}
+        self._shared: dict[Hashable, Any] = {}
 
     def sight(self, radius: int) -> Sight:
         """The fields of view of `radius` cells."""
         if radius not in self._sights:
             self._sights[radius] = Sight(self.plan, radius)
         return self._sights[radius]
+
+    def shared(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """What `make` gives, made once and kept: for rooms that work out more from the terrain,
+        as a coach does with its landmarks. `key` must name all that the result depends on."""
+        made: Made
+        if key not in self._shared:
+            self._shared[key] = make()
+        made = self._shared[key]
+        return made

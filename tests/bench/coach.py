@@ -53,9 +53,9 @@ class TimedCoach:
     def begin(self, observation: Observation) -> list[CoachRecord]:
         return self._coach.begin(observation)
 
-    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
+    def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         start = time.perf_counter()
-        records = self._coach.told(event, observation)
+        records = self._coach.on_event(event, observation)
         self._note(start, records)
         return records
 

@@ -12,7 +12,7 @@ from game.coach.acts import (
     PaceLearned,
     PosteriorEvaluated,
 )
-from game.coach.coaches import PaceCoach
+from game.coach.kinds.pace import PaceCoach
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.world import load_building
@@ -56,7 +56,8 @@ def test_ana_lowers_the_level_of_someone_who_walks_away_and_says_it_anew_at_once
     evaluation = happened[position - 1]
     assert isinstance(evaluation, PosteriorEvaluated)
     assert evaluation.verdict == "lower"
-    assert evaluation.comprehension == changed[0].comprehension < evaluation.lower_below
+    assert evaluation.comprehension == changed[0].comprehension
+    assert evaluation.comprehension < evaluation.lower_below
 
 
 def test_a_level_rises_with_a_rescue_and_not_with_a_goal_that_is_lost() -> None:

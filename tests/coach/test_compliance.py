@@ -25,7 +25,7 @@ from game.world.settings import MissionSettings
 BUILDING = load_building("practice")
 FLOODFILLS = Floodfills(BUILDING.plan)
 SITES = {site.id: site for site in BUILDING.victims}
-SCENE = Scene(BUILDING, FLOODFILLS, SITES, MissionSettings())
+SCENE = Scene(BUILDING, SITES, MissionSettings())
 START = Pose(BUILDING.start, BUILDING.start_heading)
 
 
@@ -162,7 +162,7 @@ def test_an_instruction_that_only_turns_is_reached_with_the_turn() -> None:
 def test_the_words_decide_who_may_be_treated_instead() -> None:
     harbour = load_building("harbour")
     sites = {site.id: site for site in harbour.victims}
-    scene = Scene(harbour, Floodfills(harbour.plan), sites, MissionSettings())
+    scene = Scene(harbour, sites, MissionSettings())
     goal = next(site for site in harbour.victims if site.severity is Severity.BLUE)
     alike = next(s for s in harbour.victims if s.severity is Severity.BLUE and s is not goal)
     other = next(site for site in harbour.victims if site.severity is Severity.RED)

@@ -8,12 +8,13 @@ import msgspec
 import pytest
 
 from game.coach.acts import Level
+from game.coach.bar import OnBar
 from game.coach.comprehension import ComprehensionLearner, ThresholdInfluence, evaluation_record
 from game.coach.cycle import AdaptiveCycle, Alpha
 from game.coach.goals import goal_posterior, instructed_prior
+from game.coach.kinds.pace import WINDOW_INTERVALS, PaceLearner
 from game.coach.levels import LevelState
 from game.coach.model import Component, Comprehension, HumanModel, Learned
-from game.coach.pace import WINDOW_INTERVALS, PaceLearner
 from game.coach.presets import CALIBRATED, LITERAL, RELEASED, Preset
 from game.world import load_building
 from game.world.events import Acted, Action, Expired, MissionEvent, Outcome, Rescued
@@ -49,8 +50,8 @@ Cycle = AdaptiveCycle[LevelState, LevelState]
 
 
 def _cycle(chosen: Preset) -> tuple[Cycle, ComprehensionLearner]:
-    learner = ComprehensionLearner(chosen, BUILDING, FLOODFILLS)
-    model = HumanModel.of(BUILDING, SETTINGS, FLOODFILLS)
+    learner = ComprehensionLearner(chosen, BUILDING)
+    model = HumanModel.of(BUILDING, SETTINGS)
     return AdaptiveCycle(model, learner, ThresholdInfluence(chosen)), learner
 
 
@@ -149,19 +150,19 @@ def test_when_all_wait_in_one_room_there_is_no_evidence(
 ) -> None:
     building = load_building("harbour")
     chosen = msgspec.structs.replace(CALIBRATED, aggregation=aggregation, minimum_moves=0)
-    model = HumanModel.of(building, SETTINGS, FLOODFILLS)
+    model = HumanModel.of(building, SETTINGS)
     by_room: dict[str, list[str]] = {}
     for site in building.victims:
         room = building.room_of(site)
         by_room.setdefault(room.name if room else site.id, []).append(site.id)
     shared = next(victims for victims in by_room.values() if len(victims) == 2)
     others = [site.id for site in building.victims if site.id not in shared]
-    learner = ComprehensionLearner(chosen, building, Floodfills(building.plan))
+    learner = ComprehensionLearner(chosen, building)
     learner.goal_set(shared[0], building.start)
     evidence = []
     for victim in [None, *others]:
         if victim is not None:
-            learner.observe(Expired(0, victim), SEEN)
+            learner.observe(Expired(0, victim), SEEN, None)
         comprehension = learner.learned(model)[Component.BELIEF].comprehension
         evidence.append(comprehension.evidence)
     assert evidence == [True] * len(others) + [False]
@@ -201,14 +202,16 @@ def test_the_record_of_an_evaluation() -> None:
 class Overstepping:
     alpha: Alpha = frozenset({Component.ACTIONS})
 
-    def observe(self, event: MissionEvent, observation: Observation) -> None: ...
+    def observe(
+        self, event: MissionEvent, observation: Observation, shown: OnBar | None
+    ) -> None: ...
 
     def learned(self, model: HumanModel) -> Learned:
         return {Component.REWARD: model.reward}
 
 
 def test_a_learner_keeps_to_its_alpha() -> None:
-    model = HumanModel.of(BUILDING, SETTINGS, FLOODFILLS)
+    model = HumanModel.of(BUILDING, SETTINGS)
     cycle = AdaptiveCycle(model, Overstepping(), ThresholdInfluence(CALIBRATED))
     with pytest.raises(ValueError, match="learned reward, which alpha lacks"):
         cycle.evaluate()
@@ -217,13 +220,13 @@ def test_a_learner_keeps_to_its_alpha() -> None:
 def _pace(intervals: list[int], outcomes: dict[int, Outcome] | None = None) -> PaceLearner:
     learner = PaceLearner(SETTINGS)
     now_ms = 0
-    learner.observe(_moved((1, 10)), SEEN)
+    learner.observe(_moved((1, 10)), SEEN, None)
     for n, interval in enumerate(intervals):
         now_ms += interval
         outcome = (outcomes or {}).get(n, Outcome.MOVED)
         action: dict[str, Any] = {"action": Action.EAST, "position": (1, 10)}
         event = Acted(now_ms, now_ms, outcome=outcome, heading=Heading.EAST, **action)
-        learner.observe(event, SEEN)
+        learner.observe(event, SEEN, None)
     return learner
 
 
@@ -244,7 +247,7 @@ def test_pace_is_not_moved_by_pauses_or_treatments() -> None:
 
 
 def test_pace_is_learned_into_the_actions_alone() -> None:
-    model = HumanModel.of(BUILDING, SETTINGS, FLOODFILLS)
+    model = HumanModel.of(BUILDING, SETTINGS)
     learned = model.with_learned(_pace([400] * 30).learned(model))
     assert learned.actions.ms_per_move == 400
     assert learned.actions.actions == model.actions.actions

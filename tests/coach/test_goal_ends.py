@@ -10,7 +10,8 @@ from game.coach.acts import (
     NothingLeft,
     PosteriorEvaluated,
 )
-from game.coach.guide import ALL_SAFE, NOBODY_IN_TIME, TOO_LATE
+from game.coach.guide import TOO_LATE
+from game.coach.lead import ALL_SAFE, NOBODY_IN_TIME
 from game.world.events import Expired, TreatmentStarted
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings

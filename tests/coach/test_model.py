@@ -31,8 +31,8 @@ from game.world.settings import MissionSettings
 BUILDING = load_building("practice")
 PLAN = BUILDING.plan
 FLOODFILLS = Floodfills(PLAN)
-MODEL = HumanModel.of(BUILDING, MissionSettings(), FLOODFILLS)
-TURNING = HumanModel.of(BUILDING, MissionSettings(controls="turn"), FLOODFILLS)
+MODEL = HumanModel.of(BUILDING, MissionSettings())
+TURNING = HumanModel.of(BUILDING, MissionSettings(controls="turn"))
 SPACE = MODEL.states
 FLOOR = list(PLAN.cells(PLAN.walkable_mask))
 VICTIMS = list(SPACE.victims)
@@ -209,7 +209,7 @@ NEW_VALUES: dict[Component, Any] = {
     Component.REWARD: Reward(2.0),
     Component.OBSERVATIONS: Observations(room_names=False),
     Component.OBSERVATION_FUNCTION: HumanModel.of(
-        BUILDING, MissionSettings(sight_radius=2), FLOODFILLS
+        BUILDING, MissionSettings(sight_radius=2)
     ).observation_function,
     Component.BELIEF: BeliefEstimate(_belief((1, 10))),
 }
@@ -252,7 +252,7 @@ def test_whoever_acts_by_the_policy_carries_real_instructions_out(
     model: HumanModel, level: Level
 ) -> None:
     settings = MissionSettings(controls="turn" if model is TURNING else "compass")
-    scene = Scene(BUILDING, FLOODFILLS, {v.id: v for v in BUILDING.victims}, settings)
+    scene = Scene(BUILDING, {v.id: v for v in BUILDING.victims}, settings)
     for goal in (VICTIMS[0], VICTIMS[-1]):
         mission = Mission(BUILDING, settings)
         model = model.seeing(mission.observation())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
-from game.coach.coaches import StaticCoach
+from game.coach.kinds.static import StaticCoach
 from game.coach.spec import CoachSpec, parse_coach
 from game.errors import AnaError
 from tests.coach.scripted import ADAPTIVE, EVERY, PACE, STATIC, Game

@@ -78,7 +78,7 @@ class SaysOnly:
     def begin(self, observation: Observation) -> list[CoachRecord]:
         return []
 
-    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
+    def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         return []
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:

@@ -59,7 +59,7 @@ class Ground:
     def let_wait(self, waiting: Mapping[str, VictimSite]) -> None:
         """From now on only these victims are there."""
         self.waiting = waiting
-        self.scene = Scene(self.building, self.floodfills, waiting, self.settings)
+        self.scene = Scene(self.building, waiting, self.settings)
 
     def poses(self) -> Iterator[Pose]:
         """Every pose that can be reached from the start."""

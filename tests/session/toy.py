@@ -68,7 +68,7 @@ class ToyCoach:
     def begin(self, observation: Observation) -> list[CoachRecord]:
         return self._set_goal("start", observation)
 
-    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
+    def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         match event:
             case Acted():
                 self._moves += event.outcome is Outcome.MOVED

@@ -9,7 +9,7 @@ from statistics import mean
 import pytest
 
 from game.cli import main
-from game.coach.route import plan_route
+from game.coach.route import RoutePlanner
 from game.errors import AnaError
 from game.world import load_building
 from game.world.building import Building, Severity
@@ -81,15 +81,9 @@ def planned_rescues(name: str) -> Counter[Severity]:
     """Whom a follower who loses no time rescues, by the route planned at the start."""
     building = load_building(name)
     settings = MissionSettings()
-    route = plan_route(
-        Floodfills(building.plan),
-        settings,
-        building.start,
-        0,
-        {victim.id: victim for victim in building.victims},
-        seed=0,
-        ms_per_move=settings.pace_ms,
-    )
+    waiting = {victim.id: victim for victim in building.victims}
+    planner = RoutePlanner(building.terrain.floodfills, settings, waiting)
+    route = planner.plan(building.start, 0, waiting, ms_per_move=settings.pace_ms)
     severity = {victim.id: victim.severity for victim in building.victims}
     return Counter(severity[victim] for victim in route.order)
 

@@ -1,7 +1,8 @@
 """What the coach says, at three levels of abstraction (paper 5.1.2)."""
 
+from game.coach.instructions.course import course
 from game.coach.instructions.notices import correction
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.transformation import instruct, lower, raise_
 
-__all__ = ["Instruction", "Pose", "Scene", "correction", "instruct", "lower", "raise_"]
+__all__ = ["Instruction", "Pose", "Scene", "correction", "course", "instruct", "lower", "raise_"]

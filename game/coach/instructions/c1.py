@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import islice
 
 from game.coach.acts import Level
+from game.coach.instructions.legs import legs, treats
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import Tuple, Tuples
-from game.coach.instructions.way import legs, treats
 
 MOST_LEGS = 3
 """How many straight runs one instruction holds."""

@@ -6,11 +6,11 @@ Of the best way through the graph of what C2 can say, the first tuples are shown
 from __future__ import annotations
 
 from game.coach.acts import Level
+from game.coach.instructions.legs import legs
 from game.coach.instructions.scene import Instruction, Pose, Scene
-from game.coach.instructions.search import MOST_DETOUR, guide
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import Tuple
-from game.coach.instructions.way import legs
+from game.coach.instructions.ways import MOST_DETOUR, ways_in
 from game.world.geometry import Cell
 
 MOST_TUPLES = 3
@@ -21,15 +21,15 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction | None:
     """The first stages of the best way; None where no way can be told at this level."""
     scene.descent(start, goal)
     plan = scene.building.plan
-    known = guide(scene)
-    search = known.search(scene, goal)
+    known = ways_in(scene)
+    ways = known.to(scene, goal)
     tuples: list[Tuple] = []
     path = [start.cell]
     pose, detour, treats = start, 0, False
     while not treats:
         here = plan.index(pose.cell)
-        stage = search.stage(here, pose.heading)
-        detour += search.detour(here, stage.move)
+        stage = ways.stage(here, pose.heading)
+        detour += ways.detour(here, stage.move)
         fits = len(tuples) + len(stage.said) <= MOST_TUPLES and detour <= MOST_DETOUR
         if not stage.said or not fits:
             break

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from game.coach.acts import Level
+from game.coach.instructions.legs import legs
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import VICTIM_AT_C3, Tuple
-from game.coach.instructions.way import legs
 
 
 def compose(scene: Scene, start: Pose, goal: str) -> Instruction | None:

@@ -27,9 +27,12 @@ class Scene:
     """The mission as the coach sees it now: `waiting` holds the waiting victims by id."""
 
     building: Building
-    floodfills: Floodfills
     waiting: Mapping[str, VictimSite]
     settings: MissionSettings
+
+    @property
+    def floodfills(self) -> Floodfills:
+        return self.building.terrain.floodfills
 
     @cached_property
     def _waiting_at(self) -> dict[Cell, VictimSite]:

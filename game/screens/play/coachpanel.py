@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from game.coach.acts import CoachRecord, PosteriorEvaluated
 from game.coach.api import Briefing, Coach
+from game.coach.registry import KINDS
 from game.coach.spec import CoachSpec, build_coach
 from game.journal.thoughts import Thoughts
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
@@ -46,8 +47,8 @@ class OverheardCoach:
     def begin(self, observation: Observation) -> list[CoachRecord]:
         return self._heard(self._coach.begin(observation))
 
-    def told(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
-        return self._heard(self._coach.told(event, observation))
+    def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
+        return self._heard(self._coach.on_event(event, observation))
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
         return self._heard(self._coach.evaluate(at_ms, observation))
@@ -182,7 +183,8 @@ class CoachPanel(Canvas):
     def __init__(self, building: Building, spec: CoachSpec) -> None:
         super().__init__(id="coach")
         self._building = building
-        self._infers = spec.kind not in ("static", "pace")
+        kind = KINDS.get(spec.kind)
+        self._infers = kind is None or kind.panel == "posterior"
         self._thoughts = Thoughts()
 
     def show(self, thoughts: Thoughts) -> None:

@@ -4,7 +4,6 @@ from functools import cache
 
 from game.coach.instructions import Pose, Scene
 from game.world.building import Building
-from game.world.floodfill import Floodfills
 from game.world.geometry import Cell, Heading
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings
@@ -55,9 +54,7 @@ def scene(*waiting: Cell, building: Building | None = None) -> Scene:
     """The office with the victims in `waiting` still waiting; all of them where none is named."""
     building = building or office()
     sites = [site for site in building.victims if site.cell in waiting or not waiting]
-    return Scene(
-        building, Floodfills(building.plan), {site.id: site for site in sites}, MissionSettings()
-    )
+    return Scene(building, {site.id: site for site in sites}, MissionSettings())
 
 
 def goal_at(cell: Cell) -> str:

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from game.coach.acts import Level
 from game.coach.instructions import Pose, Scene, instruct, lower, raise_
 from game.world.building import Building, Severity, VictimSite
-from game.world.floodfill import Floodfills
 from game.world.geometry import Cell, Heading
 from game.world.mission import Mission
 from game.world.plan import Plan
@@ -152,7 +151,7 @@ def corridor(**victims_at: int) -> Scene:
     plan = Plan(10, 3, bytes([1] * 10 + [1, *[0] * 8, 1] + [1] * 10))
     sites = {name: VictimSite(name, (x, 1), Severity.RED) for name, x in victims_at.items()}
     building = Building("corridor", plan, (), (), tuple(sites.values()), (1, 1), E, "")
-    return Scene(building, Floodfills(plan), sites, MissionSettings())
+    return Scene(building, sites, MissionSettings())
 
 
 def test_whoever_would_treat_another_victim_is_first_told_to_move() -> None:
@@ -185,9 +184,7 @@ def test_at_c3_any_victim_that_fits_the_words_is_accepted() -> None:
     blue = goal_at((7, 11))
     assert instruct(place, START, blue, Level.C3).accepts == {blue}
     other = VictimSite("twin", (3, 9), Severity.BLUE)
-    crowded = Scene(
-        place.building, place.floodfills, {**place.waiting, "twin": other}, place.settings
-    )
+    crowded = Scene(place.building, {**place.waiting, "twin": other}, place.settings)
     assert instruct(crowded, START, blue, Level.C3).accepts == {blue, "twin"}
     assert instruct(crowded, START, blue, Level.C2).accepts == {blue}
 

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 from game.coach.instructions.landmarks import Landmarks, Move
+from game.coach.instructions.legs import BY_EFFORT
 from game.coach.instructions.scene import Scene
 from game.coach.instructions.vocabulary import VICTIM_AT_C2, Tuples
-from game.coach.instructions.way import BY_EFFORT
-from game.world.floodfill import Floodfills
 from game.world.geometry import Cell, Heading
 
 MOST_DETOUR = 2
@@ -30,8 +28,8 @@ told to its end, it is told as far as this is worth it."""
 TURNS: tuple[Tuples, ...] = ((), (("Turn", "right"),), (("Turn", "Around"),), (("Turn", "left"),))
 """How to say a turn of so many quarters to the right."""
 
-MOST_SEARCHES = 64
-"""How many searches are kept for a building before all are forgotten."""
+MOST_KEPT = 64
+"""The ways to so many goals are kept for a building before all are forgotten."""
 
 
 class Stage(NamedTuple):
@@ -46,7 +44,7 @@ class Stage(NamedTuple):
     move: Move | None
 
 
-class Search:
+class WaysToGoal:
     """The best ways to one goal, from anywhere, while the same victims wait."""
 
     def __init__(self, scene: Scene, goal: str, landmarks: Landmarks) -> None:
@@ -159,37 +157,25 @@ class Search:
         return tuple(victim for victim in self._alike if field >> self._plan.index(victim) & 1)
 
 
-class Guide:
-    """What is kept about one building between instructions."""
+class WaysToGoals:
+    """The best ways in one building, kept between instructions."""
 
     def __init__(self, scene: Scene) -> None:
-        self.building = scene.building
         self.landmarks = Landmarks(scene.building, scene.settings.sight_radius)
-        self._searches: dict[tuple[str, frozenset[str]], Search] = {}
+        self._ways: dict[tuple[str, frozenset[str]], WaysToGoal] = {}
 
-    def fits(self, scene: Scene) -> bool:
-        return (
-            self.building is scene.building
-            and self.landmarks.sight.radius == scene.settings.sight_radius
-        )
-
-    def search(self, scene: Scene, goal: str) -> Search:
-        """The search for `goal` among the victims that wait now."""
+    def to(self, scene: Scene, goal: str) -> WaysToGoal:
+        """The ways to `goal` while the victims wait that wait now."""
         key = goal, frozenset(scene.waiting)
-        search = self._searches.get(key)
-        if search is None:
-            if len(self._searches) >= MOST_SEARCHES:
-                self._searches.clear()
-            search = self._searches[key] = Search(scene, goal, self.landmarks)
-        return search
+        ways = self._ways.get(key)
+        if ways is None:
+            if len(self._ways) >= MOST_KEPT:
+                self._ways.clear()
+            ways = self._ways[key] = WaysToGoal(scene, goal, self.landmarks)
+        return ways
 
 
-_guides: WeakKeyDictionary[Floodfills, Guide] = WeakKeyDictionary()
-
-
-def guide(scene: Scene) -> Guide:
-    """The guide to the scene's building: it lives as long as the floodfills it goes with."""
-    found = _guides.get(scene.floodfills)
-    if found is None or not found.fits(scene):
-        found = _guides[scene.floodfills] = Guide(scene)
-    return found
+def ways_in(scene: Scene) -> WaysToGoals:
+    """The ways in the scene's building."""
+    key = "ways", scene.settings.sight_radius
+    return scene.building.terrain.shared(key, lambda: WaysToGoals(scene))
