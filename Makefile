@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PROJECT := pyproject.toml game/__init__.py
 
 .DEFAULT_GOAL := help
-.PHONY: help play test slow lab reproduce bench lint types contract pins schema
+.PHONY: help play test slow lab reproduce reference bench lint types contract pins schema
 
 help:  ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -30,15 +30,22 @@ reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure
 bench: $(VENV)/all.stamp  ## measure speed beside the floors, in one run
 	@$(BIN)/python -m tests.bench
 
-lint: $(VENV)/all.stamp  ## check style and format
+lint: $(VENV)/all.stamp  ## check style, format and spelling
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@$(BIN)/codespell $$(git ls-files '*.md' '*.py' '*.toml' '*.R' Makefile .ci/run)
 
 types: $(VENV)/all.stamp  ## check the types
 	@$(BIN)/mypy
 
 contract: $(VENV)/all.stamp  ## check which room may import which
 	@$(BIN)/lint-imports
+
+reference:  ## compute the reference numbers of the statistics again with R, and compare
+	@command -v Rscript >/dev/null || { \
+	  echo "make reference needs R and its packages, and there is no 'Rscript' here." >&2; \
+	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,effectsize,bayesfactor,ordinal}" >&2; exit 2; }
+	@cd tests/reference && WRITE=$(WRITE) Rscript reference.R
 
 schema: $(VENV)/all.stamp  ## write the schema of journals from the types
 	@$(BIN)/python -m game.journal.schema

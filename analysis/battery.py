@@ -8,11 +8,11 @@ from pathlib import Path
 from analysis.pages.figures import write_figures
 from analysis.report import summary
 from analysis.sources.absent import Absent, Plain, Row, Tree, attempt, plain
-from analysis.sources.exclusions import Rules, left_by, load_rules
 from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
-from analysis.sources.frames import Paired, Study, both_rounds, paired
+from analysis.sources.frames import Paired, StudyData, both_rounds, paired
+from analysis.sources.samples import left_by
 from analysis.sources.source import load_study
-from analysis.sources.study_folder import StudyMode, Tick
+from analysis.sources.study_folder import Tick
 from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.cellmodel import contrast_row, weights_of
@@ -38,6 +38,8 @@ from analysis.stats.power import power_rows
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.reliability import alpha_rows
 from analysis.stats.sensitivity import continuous_rows, exclusion_rows
+from game.journal.records import StudyMode
+from game.tables.exclusions import ExclusionRules, read_rules
 
 #: Parts of an outcome that need the analysis cells.
 BY_CELL: Mapping[str, Callable[[RoundModels], Tree]] = {
@@ -60,7 +62,7 @@ class BatteryResult:
     what stopped a planned analysis, each naming the place; `notes` what a reader must know.
     """
 
-    study: Study
+    study: StudyData
     results: dict[str, Plain]
     anovas: Mapping[str, list[Effect] | Absent]
     problems: tuple[str, ...]
@@ -80,7 +82,7 @@ class BatteryResult:
         return json.dumps(self.results, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def run_battery(randomised: Study, rules: Rules) -> BatteryResult:
+def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
     """Run everything on the sample that the primary exclusion rule leaves of all randomised."""
     sample = left_by(randomised, rules.main())
     study, clustering = grouped(sample.study)
@@ -134,7 +136,7 @@ def run_battery(randomised: Study, rules: Rules) -> BatteryResult:
 
 
 def outcome_rows(
-    study: Study, outcome: str, pair: Paired | Absent, anova: list[Effect] | Absent
+    study: StudyData, outcome: str, pair: Paired | Absent, anova: list[Effect] | Absent
 ) -> Row:
     """All parts of one outcome; a part that cannot be had is absent with its reason."""
     rows: Row = {
@@ -211,14 +213,14 @@ def analyse_source(
     """
     study = load_study(source, quiz, mode, check=check, tick=tick)
     loaded()
-    result = run_battery(study, load_rules())
+    result = run_battery(study, read_rules())
     if figures is not None:
         write_figures(result.study, figures)
     return result
 
 
 def _problems(
-    study: Study, clustering: Clustering | Absent, anovas: Mapping[str, list[Effect] | Absent]
+    study: StudyData, clustering: Clustering | Absent, anovas: Mapping[str, list[Effect] | Absent]
 ) -> list[str]:
     problems = []
     if isinstance(clustering, Absent) and study.has("quiz_static"):

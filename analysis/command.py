@@ -10,8 +10,8 @@ import click
 
 from analysis.battery import analyse_source
 from analysis.sources.source import holds_live_sessions
-from analysis.sources.study_folder import MODES, StudyMode
 from game.errors import AnaError
+from game.journal.records import STUDY_MODES, StudyMode
 
 Unblind = Callable[[Path], str]
 """Records in a study folder, unless the study is closed, that its allocation was looked at; returns
@@ -26,7 +26,7 @@ _PATH = click.Path(path_type=Path)
 @click.option("--json", "out", required=True, type=_PATH, metavar="OUT.json", help="Where to.")
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
-@click.option("--mode", type=click.Choice(MODES),
+@click.option("--mode", type=click.Choice(STUDY_MODES),
               help="Which sessions of a study folder, where there are several kinds.")  # fmt: skip
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
@@ -57,7 +57,7 @@ def command(
         raise AnaError(
             f"the results cannot be written ({error.strerror})",
             place=str(out),
-            mend="Give a file in a folder that exists and that you may write to.",
+            hint="Give a file in a folder that exists and that you may write to.",
         ) from error
     click.echo(result.table())
     return result.exit_status

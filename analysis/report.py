@@ -4,14 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from analysis.sources.absent import Plain
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 
 #: Comparisons are listed below this Holm-adjusted p.
 SIGNIFICANT = 0.05
 
 
 def summary(
-    study: Study, results: Mapping[str, Plain], problems: Sequence[str], notes: Sequence[str]
+    study: StudyData, results: Mapping[str, Plain], problems: Sequence[str], notes: Sequence[str]
 ) -> str:
     """Sample, groups, alpha, the ANOVAs and the significant comparisons, then problems and notes.
 

@@ -20,10 +20,10 @@ from analysis.execute import executed, html, notebooks, title, write
 from analysis.pages.figures import write_figures
 from analysis.pages.preset_studies import POPULATIONS, PRESETS, Key, missions_of, write_missions
 from analysis.pages.style import SIMULATED
-from analysis.sources.exclusions import load_rules
 from analysis.sources.recorded import Recorded
 from analysis.sources.study_folder import read_study_folder
 from analysis.sources.tables_folder import write_tables
+from game.tables.exclusions import read_rules
 
 PARTICIPANTS = 108
 #: Two blocks of the design, for each preset and kind of people.
@@ -41,7 +41,7 @@ DEFAULT_PRESET = 'preset = "calibrated"'
               help="Participants for each preset and kind of people; 0: none.")  # fmt: skip
 @click.option("--seed", type=click.IntRange(0), default=SEED, show_default=True)
 def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
-    """Simulate a study, analyse it and write the report, all into OUT, which is made anew."""
+    """Simulate a study, analyse it and write the report, all into OUT, which is replaced."""
     began = monotonic()
 
     def say(words: str) -> None:
@@ -60,7 +60,7 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
         table = missions_of(dict(_preset_studies(out / "presets", each, seed)))
         say(str(write_missions(table, out / "tables")))
     say("Every statistic")
-    result = run_battery(recorded.study(), load_rules())
+    result = run_battery(recorded.study(), read_rules())
     (out / "results.json").write_text(result.to_json(), encoding="utf-8")
     write_figures(result.study, out / "figures")
     say("The notebooks")

@@ -1,4 +1,4 @@
-"""The `ana` command: which room answers which subcommand, and how every run of it ends."""
+"""The `ana` command: where each subcommand lives, and how every run ends."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from game.errors import AnaError
 from game.lazy import LazyCommand, LazyGroup
 
 OBJECTS_BETWEEN_COLLECTIONS = 10_000
-"""Importing makes many objects and no garbage; to look for it every 700 of them would take a
-fifteenth of the time until the game opens."""
+"""Importing makes many objects and no garbage; looking for it after every 700 of them would take a
+fifteenth of the start-up time."""
 
 STATUS_BAD_INPUT = 2
 STATUS_INTERRUPTED = 130
@@ -29,23 +29,33 @@ STATUS_INTERRUPTED = 130
         LazyCommand(
             "replay",
             "game.commands.ana_play:replay_journal",
-            "Replay a mission with the coach's thoughts.",
+            "Replay a mission with the coach's reasoning.",
         ),
         LazyCommand(
-            "verify", "game.commands.ana_verify:command", "Prove that journals replay to the same."
+            "verify",
+            "game.commands.ana_verify:verify_command",
+            "Check that journals replay exactly.",
         ),
         LazyCommand(
-            "building", "game.commands.ana_building:group", "Check a building file, or show one."
+            "building",
+            "game.commands.ana_building:building_group",
+            "Check a building file, or show one.",
         ),
-        LazyCommand("study", "game.commands.ana_study:group", "Set up and run the experiment."),
-        LazyCommand("simulate", "game.commands.ana_simulate:command", "Simulate a whole study."),
+        LazyCommand(
+            "study", "game.commands.ana_study:study_group", "Set up and run the experiment."
+        ),
+        LazyCommand(
+            "simulate", "game.commands.ana_simulate:simulate_command", "Simulate a whole study."
+        ),
         LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
         LazyCommand(
-            "doctor", "game.commands.ana_doctor:command", "Check that this terminal can play."
+            "doctor",
+            "game.commands.ana_doctor:doctor_command",
+            "Check that this terminal can play.",
         ),
         LazyCommand(
             "completion",
-            "game.commands.ana_completion:command",
+            "game.commands.ana_completion:completion_command",
             "Print a shell's completion script.",
         ),
     ],
@@ -55,7 +65,7 @@ STATUS_INTERRUPTED = 130
 @click.version_option(__version__, prog_name="ana", message="%(prog)s %(version)s")
 @click.pass_context
 def ana(ctx: click.Context) -> int | None:
-    """A guided rescue mission with an adaptive coach, and the study around it."""
+    """A guided rescue mission with an adaptive coach, and a study built on it."""
     if ctx.invoked_subcommand is not None:
         return None
     from game.screens.play.app import run_home
@@ -66,14 +76,14 @@ def ana(ctx: click.Context) -> int | None:
 def main(args: Sequence[str] | None = None) -> int:
     """Run `ana` with `args` (default: the process's own) and return the exit status.
 
-    What the user can mend is told in one form on the error stream, with status 2; an interrupt
-    gives 130; a reader that closes the pipe ends the process quietly with 1.
+    Anything the user can fix is reported in one form on the error stream, with status 2; an
+    interrupt gives 130; a reader that closes the pipe ends the process quietly with 1.
     """
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     try:
         status = cast(
             "int | None",
-            ana.main(args, prog_name="ana", standalone_mode=False, obj=_unblind),
+            ana.main(args, prog_name="ana", standalone_mode=False, obj=_record_analysis),
         )
     except click.UsageError as error:
         return _refuse(error.format_message(), hint=_help_hint(error.ctx))
@@ -86,11 +96,11 @@ def main(args: Sequence[str] | None = None) -> int:
     return status or 0
 
 
-def _unblind(folder: Path) -> str:
-    """Handed to the analysis, which knows nothing of studies and their ledgers."""
-    from game.commands.lab import unblind
+def _record_analysis(folder: Path) -> str:
+    """Passed to the analysis, which knows nothing about studies and their ledgers."""
+    from game.commands.ana_study import record_analysis
 
-    return unblind(folder, "ana analyse")
+    return record_analysis(folder)
 
 
 def _refuse(problem: str, hint: str = "") -> int:

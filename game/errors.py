@@ -1,22 +1,38 @@
-"""The one kind of error that a user is shown."""
+"""The one kind of error that a user is shown, and the hint for a misspelt name."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 
 class AnaError(Exception):
-    """Something the user can mend; `ana` prints it to the error stream and leaves with status 2.
+    """Something the user can fix; `ana` prints it to the error stream and exits with status 2.
 
-    `message` says what is wrong, `place` where (a file, a line and column, an option) and `mend`
-    what to do about it; the last two may be empty. Rooms subclass it and keep its arguments.
+    `message` says what is wrong, `place` where (a file, a line and column, an option), and `hint`
+    what to do about it; `place` and `hint` may be empty. Subclasses keep these arguments.
     """
 
-    def __init__(self, message: str, *, place: str = "", mend: str = "") -> None:
+    def __init__(self, message: str, *, place: str = "", hint: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.place = place
-        self.mend = mend
+        self.hint = hint
 
     def __str__(self) -> str:
         where = f"{self.place}: " if self.place else ""
-        what = f"{self.message.rstrip('.')}. {self.mend}" if self.mend else self.message
+        what = f"{self.message.rstrip('.')}. {self.hint}" if self.hint else self.message
         return where + what
+
+
+def did_you_mean(name: str, names: Iterable[str]) -> str:
+    """`Did you mean X?` with the nearest of `names`, whatever its capitals; else empty."""
+    known = {one.casefold(): one for one in names}
+    near = get_close_matches(name.casefold(), known, n=1)
+    return f"Did you mean {known[near[0]]}?" if near else ""
+
+
+def choose_from(name: str, names: Iterable[str], also: str = "") -> str:
+    """The hint for a `name` that is none of `names`: the nearest, then all, then `also`."""
+    names = tuple(names)
+    return f"{did_you_mean(name, names)} Choose from {', '.join(names)}{also}.".lstrip()

@@ -1,4 +1,4 @@
-"""Commands that are known by name at once and imported when they are run."""
+"""Commands that are listed by name and imported only when they run."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ OURS = ("analysis", "game")
 
 
 class LazyCommand(click.Command):
-    """A name and a summary, known at once; the command itself is imported when it is run.
+    """A name and a summary; the command itself is imported only when it runs.
 
-    `target` is `module:attribute`, where the attribute is a `click.Command` whose function returns
-    its exit status, None meaning 0.
+    `target` is `module:attribute`; the attribute is a `click.Command` whose function returns its
+    exit status (None means 0).
     """
 
     def __init__(self, name: str, target: str, summary: str) -> None:
@@ -24,7 +24,7 @@ class LazyCommand(click.Command):
         self.target = target
 
     def load(self) -> click.Command:
-        """The command behind the name. Raises AnaError where a package it needs is missing."""
+        """The command behind the name. Raises AnaError if a package it needs is missing."""
         module, _, attribute = self.target.partition(":")
         try:
             return cast(click.Command, getattr(import_module(module), attribute))
@@ -33,15 +33,15 @@ class LazyCommand(click.Command):
             if missing.partition(".")[0] in ("", *OURS):
                 raise
             raise AnaError(
-                f"it needs the Python package {missing}, which is not installed",
+                f"this command needs the Python package {missing}, which is not installed",
                 place=f"ana {self.name}",
-                mend="In the folder of ana's source, install everything: `make test` does, or "
+                hint="In the source folder run `make test`, which installs everything, or "
                 "`pip install --require-hashes --requirement requirements/all.txt`",
             ) from error
 
 
 class LazyGroup(click.Group):
-    """A group that imports only the subcommand it is about to run, and lists them as given."""
+    """A group that imports only the subcommand it runs, and lists its subcommands in order."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(self.commands)

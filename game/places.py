@@ -14,9 +14,9 @@ def checkout(package: Path = PACKAGE) -> Path | None:
 
 
 def sessions_folder(package: Path = PACKAGE) -> Path:
-    """The folder of journals: the checkout's `data/sessions`, else the user's own data folder.
+    """The folder for journals: the checkout's `data/sessions`, else the user's data folder.
 
-    It is not created here.
+    This does not create it.
     """
     root = checkout(package)
     if root is not None:

@@ -1,4 +1,4 @@
-"""The `ana` command as a user meets it: what it prints, where, and with which exit status."""
+"""The `ana` command as a user sees it: what it prints, where, and its exit status."""
 
 import os
 import pty
@@ -61,7 +61,7 @@ def test_help_lists_every_command_in_the_order_of_the_table(capsys: Capture) -> 
         (["doctor", "--jsn"], "No such option '--jsn'. Did you mean '--json'?"),
     ],
 )
-def test_a_slip_is_met_by_the_nearest_right_word(
+def test_a_typo_gets_the_nearest_right_word(
     args: list[str], suggestion: str, capsys: Capture
 ) -> None:
     assert main(args) == 2
@@ -70,10 +70,10 @@ def test_a_slip_is_met_by_the_nearest_right_word(
     assert err.startswith(f"ana: {suggestion}\nTry 'ana")
 
 
-def test_a_users_error_is_told_on_the_error_stream(
+def test_a_users_error_goes_to_the_error_stream(
     command_that: Callable[[Callable[[], int | None]], None], capsys: Capture
 ) -> None:
-    command_that(raising(AnaError("row 3 is short", place="a.txt, line 5", mend="Add 2 cells.")))
+    command_that(raising(AnaError("row 3 is short", place="a.txt, line 5", hint="Add 2 cells.")))
     assert main(["probe"]) == 2
     assert capsys.readouterr() == ("", "ana: a.txt, line 5: row 3 is short. Add 2 cells.\n")
 
@@ -85,18 +85,18 @@ def test_a_command_of_a_tier_that_is_not_installed_says_how_to_install_it() -> N
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (run.returncode, run.stdout) == (2, "")
-    assert run.stderr.startswith("ana: ana analyse: it needs the Python package numpy")
+    assert run.stderr.startswith("ana: ana analyse: this command needs the Python package numpy")
     assert "make test" in run.stderr
     assert "pip install --require-hashes --requirement requirements/all.txt" in run.stderr
 
 
 @pytest.mark.parametrize("target", ["game.nowhere:command", "analysis.nowhere:command"])
-def test_a_missing_module_of_our_own_is_a_defect(target: str) -> None:
+def test_a_missing_module_of_our_own_is_a_bug(target: str) -> None:
     with pytest.raises(ModuleNotFoundError):
         LazyCommand("probe", target, "A probe.").load()
 
 
-def test_a_defect_is_not_dressed_up_as_a_users_error(
+def test_a_bug_is_not_reported_as_a_users_error(
     command_that: Callable[[Callable[[], int | None]], None],
 ) -> None:
     command_that(raising(ZeroDivisionError()))
@@ -161,7 +161,7 @@ def test_the_shell_gets_its_completions(words: str, expected: list[str]) -> None
 
 
 def in_a_terminal(args: list[str], keys: list[bytes], env: dict[str, str]) -> tuple[int, str]:
-    """Run `ana` in a pseudo-terminal, typing `keys` once it has asked for one."""
+    """Run `ana` in a pseudo-terminal, and type `keys` once it asks for one."""
     controller, terminal = pty.openpty()
     process = subprocess.Popen(
         [sys.executable, "-m", "game", *args],
@@ -195,12 +195,12 @@ def in_a_terminal(args: list[str], keys: list[bytes], env: dict[str, str]) -> tu
 def test_doctor_reads_an_arrow_key_in_a_terminal() -> None:
     env = {"TERM": "xterm-256color"}
     _, shown = in_a_terminal(["doctor"], [b"\x1b[A"], env)
-    assert "up arrow, whole within" in shown
+    assert "up arrow, complete within" in shown
 
 
 def test_doctor_notices_an_arrow_key_in_pieces() -> None:
     env = {"TERM": "xterm-256color", "ESCDELAY": "20"}
     status, shown = in_a_terminal(["doctor"], [b"\x1b", b"[B"], env)
     assert status == 1
-    assert "the down arrow came in pieces" in shown
+    assert "down arrow, in pieces over" in shown
     assert "set ESCDELAY=" in shown

@@ -1,4 +1,4 @@
-"""Every check of `ana doctor`: what it finds good, what bad, and that it says what to do."""
+"""Every check of `ana doctor`: what passes, what fails, and that it says what to do."""
 
 import io
 import json
@@ -45,9 +45,9 @@ UP = b"\x1b[A"
         (doctor.check_clock(monotonic=False, resolution_s=1e-9), "fail"),
     ],
 )
-def test_verdict_and_mend(check: Check, status: str) -> None:
+def test_verdict_and_hint(check: Check, status: str) -> None:
     assert check.status == status
-    assert bool(check.mend) == (status != "ok")
+    assert bool(check.hint) == (status != "ok")
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,8 @@ def test_colours(env: dict[str, str], found: str, status: str) -> None:
     assert check.status == status
 
 
-def test_a_late_key_is_given_a_longer_delay() -> None:
-    assert "ESCDELAY=1400" in doctor.check_keys(KeyReading(UP, 700.0), 500).mend
+def test_for_a_slow_key_a_longer_delay_is_suggested() -> None:
+    assert "ESCDELAY=1400" in doctor.check_keys(KeyReading(UP, 700.0), 500).hint
 
 
 def test_the_log_folder_is_made_and_left_empty(tmp_path: Path) -> None:
@@ -79,7 +79,7 @@ def test_a_log_folder_that_cannot_be_made(tmp_path: Path) -> None:
     (tmp_path / "data").write_text("in the way")
     check = doctor.check_folder(tmp_path / "data" / "sessions")
     assert check.status == "fail"
-    assert "--log DIR" in check.mend
+    assert "--log DIR" in check.hint
 
 
 def test_without_a_terminal_it_reports_and_asks_nothing(
@@ -107,4 +107,4 @@ def test_playable_means_that_nothing_failed(
     )
     monkeypatch.setattr(doctor, "check_encoding", lambda _: Check("encoding", "ok", "UTF-8"))
     assert main(["doctor", "--no-keys"]) == 0
-    assert "This can be played" in capsys.readouterr().out
+    assert "You can play here" in capsys.readouterr().out

@@ -40,7 +40,7 @@ def test_the_example_coaches_a_mission_that_verifies(tmp_path: Path) -> None:
     (tmp_path / "nearest.py").write_text(EXAMPLE + "\n")
     changed = verify(path)
     assert not changed.reproduced
-    assert "not the one that was played with" in str(changed.difference)
+    assert "has changed since the mission" in str(changed.difference)
 
 
 def test_a_coach_on_the_guide_loads_with_dataclasses_and_postponed_annotations(
@@ -79,7 +79,7 @@ def test_the_example_is_as_long_as_it_says() -> None:
         ("idle.py:Idle", "lacks guidance"),
     ],
 )
-def test_a_bad_coach_is_told_with_its_mend(tmp_path: Path, source: str, told: str) -> None:
+def test_a_bad_coach_is_told_with_its_hint(tmp_path: Path, source: str, told: str) -> None:
     (tmp_path / "broken.py").write_text("1 / 0")
     (tmp_path / "idle.py").write_text("class Idle:\n    def __init__(self, briefing): pass\n")
     building = load_building("practice")

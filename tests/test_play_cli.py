@@ -1,4 +1,4 @@
-"""The options of `ana play` and `ana watch`: each mistake is named with its mend."""
+"""The options of `ana play` and `ana watch`: each mistake is reported with a hint."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GIVEN = {
 }
 
 
-def test_what_is_given_becomes_the_mission() -> None:
+def test_the_options_define_the_mission() -> None:
     given = {**GIVEN, "coach": "static", "level": 3, "minutes": 1.5, "log": Path("here")}
     options = options_of(**given)  # type: ignore[arg-type]
     assert options.building.name == "Harbour House"
@@ -45,7 +45,7 @@ def test_any_setting_can_be_set() -> None:
     [
         ("moves_per_second", "not KEY=VALUE"),
         ("move_per_second=3", "Did you mean moves_per_second"),
-        ("speed=3", "There are duration_ms"),
+        ("speed=3", "Choose from duration_ms"),
         ("moves_per_second=fast", "cannot be 'fast'"),
         ("moves_per_second=0", "between 0.5 and 100"),
         ("controls=mouse", "compass or turn"),
@@ -76,6 +76,6 @@ def test_a_mistake_ends_with_status_2(
     assert told in capsys.readouterr().err
 
 
-def test_a_rescuer_is_known_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_rescuer_is_chosen_by_name(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["watch", "--rescuer", "newcommer"]) == 2
     assert "Did you mean newcomer?" in capsys.readouterr().err

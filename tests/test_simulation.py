@@ -1,5 +1,5 @@
-"""Whole simulated studies: the same bytes for a seed whoever computes them, whole after an
-interruption, and labelled for what they are."""
+"""Whole simulated studies: the same bytes for a seed wherever they are computed, complete after an
+interruption, and labelled as simulated."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_a_cluster_writes_the_same_bytes(study: Path, tmp_path: Path) -> None:
         assert files(made(tmp_path / "study", workers)) == files(study)
 
 
-def test_a_scheduler_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_a_missing_scheduler_is_named(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     with socket.socket() as unused:
         unused.bind(("127.0.0.1", 0))
@@ -72,7 +72,7 @@ def test_a_scheduler_that_is_not_there_is_named(tmp_path: Path) -> None:
         made(tmp_path / "study", workers)
 
 
-def test_a_simulation_that_was_broken_off_goes_on(study: Path, tmp_path: Path) -> None:
+def test_an_interrupted_simulation_continues(study: Path, tmp_path: Path) -> None:
     folder = tmp_path / "study"
     going = simulate(folder, PEOPLE, SEED, DEFAULT, here)
     assert [next(going), next(going)] == [0, 1]
@@ -82,7 +82,7 @@ def test_a_simulation_that_was_broken_off_goes_on(study: Path, tmp_path: Path) -
     assert files(made(folder)) == files(study)
 
 
-def test_an_interrupt_leaves_whole_journals_alone(study: Path, tmp_path: Path) -> None:
+def test_an_interrupt_leaves_only_complete_journals(study: Path, tmp_path: Path) -> None:
     def interrupted(study: Study, work: Sequence[SlotTaken], people: Population) -> Journals:
         yield next(here(study, work, people))
         raise KeyboardInterrupt
@@ -94,7 +94,7 @@ def test_an_interrupt_leaves_whole_journals_alone(study: Path, tmp_path: Path) -
     assert files(made(folder)) == files(study)
 
 
-def test_more_people_leave_those_before_as_they_are(study: Path, tmp_path: Path) -> None:
+def test_adding_people_leaves_earlier_ones_unchanged(study: Path, tmp_path: Path) -> None:
     more = files(made(tmp_path / "study", people=PEOPLE + 1))
     for name, data in files(study).items():
         if name.startswith("sessions"):

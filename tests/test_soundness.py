@@ -20,8 +20,6 @@ from game.world.floodfill import Floodfills
 from game.world.settings import Controls
 from tests.rescuers.trials import (
     BUILDINGS,
-    PEER_MAPS,
-    SHARED,
     Ground,
     Trial,
     without_each_sentence,
@@ -163,11 +161,6 @@ def test_every_instruction_is_carried_out(building: str, controls: Controls) -> 
     )
     assert not faults, (faults, examples[:5])
     assert fallen < MOST_FALLBACK * told
-
-
-@pytest.mark.skipif(not SHARED.is_dir(), reason="the shared folder is not here")
-def test_the_peer_maps_are_tried() -> None:
-    assert len(PEER_MAPS) == 2
 
 
 @pytest.mark.parametrize("building", library.shipped_buildings())

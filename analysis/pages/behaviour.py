@@ -19,7 +19,7 @@ from analysis.pages.style import (
     LEVEL_COLOURS,
     LEVEL_MARKERS,
     SHADE,
-    VERMILLION,
+    VERMILION,
     Captioned,
     captioned,
     quiet_style,
@@ -198,7 +198,7 @@ def verdict_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
         axes = figure.subplots()
         axes.grid(visible=False)
         codes = table.map(lambda verdict: signs[verdict][1]).to_numpy()
-        colours = ListedColormap([VERMILLION, SHADE, BLUE])
+        colours = ListedColormap([VERMILION, SHADE, BLUE])
         axes.imshow(codes, cmap=colours, vmin=0, vmax=2, aspect="auto")
         for (row, column), code in np.ndenumerate(codes):
             mark = next(sign for sign, value in signs.values() if value == code)

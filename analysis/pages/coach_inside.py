@@ -21,7 +21,7 @@ from analysis.pages.traces import GROUP_COLOURS, GROUP_LINES
 from analysis.pages.what_if import JudgedMission, sweep
 from analysis.sources.absent import Refusal, Row
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.intervals import clustered_share
 
@@ -42,7 +42,7 @@ FOLLOWED = {
 }
 
 
-def evaluations(recorded: Recorded, study: Study) -> pd.DataFrame:
+def evaluations(recorded: Recorded, study: StudyData) -> pd.DataFrame:
     """The evaluations that carry evidence, with knowledge groups and what came of them.
 
     `came_true`: whether the next victim rescued was in the instructed one's room (or was it);
@@ -241,7 +241,7 @@ def what_if_figure(missions: Sequence[JudgedMission], *, simulated: bool) -> Cap
             figure,
             "The same behaviour judged by other thresholds (tau) and another prior; dotted: as it "
             "was. Look whether any setting gives the three groups different levels; people would "
-            "have acted otherwise under other words, so this is no forecast.",
+            "have acted differently under other words, so this is not a forecast.",
             simulated=simulated,
         )
 

@@ -15,7 +15,7 @@ from analysis.pages.style import (
     LEVEL_COLOURS,
     LEVEL_MARKERS,
     SHADE,
-    VERMILLION,
+    VERMILION,
     Captioned,
     bracket,
     captioned,
@@ -30,7 +30,7 @@ from analysis.sources.factors import (
     MENTAL_STATES,
     OUTCOMES,
 )
-from analysis.sources.frames import Floats, Study, both_rounds, paired
+from analysis.sources.frames import Floats, StudyData, both_rounds, paired
 from analysis.stats.posthoc import (
     RoundModels,
     complexity_within_knowledge_by_round,
@@ -41,7 +41,7 @@ SIGNIFICANT = 0.05
 OFFSETS = dict(zip(COMPLEXITY, (-0.24, 0.0, 0.24), strict=True))
 
 
-def fig7_mental_states(study: Study) -> Captioned:
+def fig7_mental_states(study: StudyData) -> Captioned:
     """Mental states in the static round by knowledge group and static level (Fig. 7)."""
     with quiet_style():
         figure = Figure(figsize=(7.2, 6.2))
@@ -88,7 +88,7 @@ def fig7_mental_states(study: Study) -> Captioned:
         )
 
 
-def fig8_performance(study: Study) -> Captioned:
+def fig8_performance(study: StudyData) -> Captioned:
     """Victims rescued by knowledge group in each round (Fig. 8)."""
     with quiet_style():
         figure = Figure(figsize=(7.2, 3.9))
@@ -113,7 +113,7 @@ def fig8_performance(study: Study) -> Captioned:
         )
 
 
-def fig9_adaptivity(study: Study, outcome: str = "engagement") -> Captioned:
+def fig9_adaptivity(study: StudyData, outcome: str = "engagement") -> Captioned:
     """adaptive - static of one outcome by static level and knowledge group (Fig. 9)."""
     with quiet_style():
         figure = Figure(figsize=(7.2, 3.9))
@@ -130,7 +130,7 @@ def fig9_adaptivity(study: Study, outcome: str = "engagement") -> Captioned:
                 values = pair.difference[inside]
                 above = len(values) > 0 and values.mean() >= 0
                 _mean_and_se(
-                    axes, at, values, BLUE if above else VERMILLION, "^" if above else "v", None
+                    axes, at, values, BLUE if above else VERMILION, "^" if above else "v", None
                 )
             axes.set_xticks(range(len(KNOWLEDGE)), KNOWLEDGE)
             axes.set_xlim(-0.6, len(KNOWLEDGE) - 0.4)
@@ -148,7 +148,7 @@ def fig9_adaptivity(study: Study, outcome: str = "engagement") -> Captioned:
         )
 
 
-def adaptivity_estimates(study: Study) -> Captioned:
+def adaptivity_estimates(study: StudyData) -> Captioned:
     """adaptive - static of every outcome in standard deviations of its static round."""
     with quiet_style():
         figure = Figure(figsize=(7.2, 3.4))
@@ -183,7 +183,7 @@ def adaptivity_estimates(study: Study) -> Captioned:
         )
 
 
-def write_figures(study: Study, folder: Path) -> list[Path]:
+def write_figures(study: StudyData, folder: Path) -> list[Path]:
     """Draw every figure that the study can fill into `folder` (PNG), and their captions.
 
     Without knowledge groups only the overall estimates are drawn.
@@ -203,11 +203,11 @@ def write_figures(study: Study, folder: Path) -> list[Path]:
     return paths
 
 
-def _models(study: Study, outcome: str) -> RoundModels:
+def _models(study: StudyData, outcome: str) -> RoundModels:
     return RoundModels.of(paired(study, outcome))
 
 
-def _rounds_with_groups(study: Study) -> pd.DataFrame:
+def _rounds_with_groups(study: StudyData) -> pd.DataFrame:
     study.need_groups()
     return study.rounds.join(study.participants[["knowledge", "complexity"]], on="participant")
 

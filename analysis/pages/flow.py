@@ -5,13 +5,14 @@ from matplotlib.figure import Figure
 
 from analysis.pages.style import BLUE, INK, SHADE, Captioned, captioned, quiet_style
 from analysis.sources.absent import Row
-from analysis.sources.exclusions import Rules, left_by
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
+from analysis.sources.samples import left_by
 from analysis.stats.sensitivity import by_design_cell
+from game.tables.exclusions import ExclusionRules
 
 
-def flow_rows(recorded: Recorded, rules: Rules) -> list[Row]:
+def flow_rows(recorded: Recorded, rules: ExclusionRules) -> list[Row]:
     """The steps from the first session to the analysed sample, with who left before each."""
     people = recorded.frame("participants")
     agreed = people[people["session_ending"] != "declined"]
@@ -72,7 +73,7 @@ def flow_figure(rows: list[Row], *, simulated: bool) -> Captioned:
         )
 
 
-def balance(study: Study) -> pd.DataFrame:
+def balance(study: StudyData) -> pd.DataFrame:
     """People a design cell: memorise time and order by static level, in each first building."""
     people = study.participants.copy()
     first = study.rounds.merge(people[["order"]], left_on="participant", right_index=True)
@@ -84,7 +85,7 @@ def balance(study: Study) -> pd.DataFrame:
     )
 
 
-def exclusion_table(study: Study, rules: Rules) -> pd.DataFrame:
+def exclusion_table(study: StudyData, rules: ExclusionRules) -> pd.DataFrame:
     """Randomised and excluded in each design cell, a column a rule."""
     parts = []
     for rule in rules.rule:

@@ -8,11 +8,11 @@ from analysis.pages.style import INK, Captioned, captioned, quiet_style
 from analysis.pages.traces import GROUP_COLOURS
 from analysis.sources.absent import Absent
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.stats.clustering import Clustering
 
 
-def knowledge_figure(study: Study, clustering: Clustering | Absent) -> Captioned:
+def knowledge_figure(study: StudyData, clustering: Clustering | Absent) -> Captioned:
     """Quiz scores of the static round by memorise time, coloured by group, with the cuts.
 
     Raises Refusal where the study has no groups.
@@ -51,7 +51,7 @@ def knowledge_figure(study: Study, clustering: Clustering | Absent) -> Captioned
         )
 
 
-def group_table(study: Study) -> pd.DataFrame:
+def group_table(study: StudyData) -> pd.DataFrame:
     """People in each knowledge group by static level, by the static round's building and by
     memorise time. Raises Refusal where the study has no groups."""
     study.need_groups()

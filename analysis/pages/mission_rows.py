@@ -3,27 +3,18 @@ behaviour start from."""
 
 import pandas as pd
 
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 
 SHARES = ("share_c1", "share_c2", "share_c3")
 KEPT = (
-    "participant",
-    "adaptivity",
-    "complexity",
-    "building",
-    "order",
-    "victims",
+    *["participant", "adaptivity", "complexity", "building", "order", "victims"],
     *SHARES,
-    "switches",
-    "mean_comprehension",
-    "missteps",
-    "disobeyed_in_round",
-    "preset",
+    *["switches", "mean_comprehension", "missteps", "disobeyed_in_round", "preset"],
 )
 
 
-def missions(recorded: Recorded, study: Study) -> pd.DataFrame:
+def missions(recorded: Recorded, study: StudyData) -> pd.DataFrame:
     """The played missions of the people in `study`; columns `KEPT` and `knowledge`.
 
     Raises Refusal where the study has no knowledge groups.
@@ -33,7 +24,7 @@ def missions(recorded: Recorded, study: Study) -> pd.DataFrame:
     )
 
 
-def with_groups(frame: pd.DataFrame, study: Study) -> pd.DataFrame:
+def with_groups(frame: pd.DataFrame, study: StudyData) -> pd.DataFrame:
     """The rows of the people in `study`, with their knowledge groups.
 
     Raises Refusal where the study has none.

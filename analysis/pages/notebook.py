@@ -12,14 +12,15 @@ from pathlib import Path
 import pandas as pd
 
 from analysis.pages.mission_rows import missions
-from analysis.pages.style import SIMULATED, VERMILLION, Captioned
+from analysis.pages.style import SIMULATED, VERMILION, Captioned
 from analysis.sources.absent import Absent, Row, Tree
-from analysis.sources.exclusions import Rules, left_by, load_rules
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
+from analysis.sources.samples import left_by
 from analysis.sources.source import load_recorded
 from analysis.stats.clustering import Clustering
 from analysis.stats.groups import grouped
+from game.tables.exclusions import ExclusionRules, read_rules
 
 #: Names another source for all notebooks, in place of the one in their parameter cell.
 VARIABLE = "ANA_SOURCE"
@@ -48,9 +49,9 @@ class Opened:
 
     folder: Path
     recorded: Recorded
-    rules: Rules
-    randomised: Study
-    study: Study
+    rules: ExclusionRules
+    randomised: StudyData
+    study: StudyData
     clustering: Clustering | Absent
 
     @property
@@ -85,7 +86,7 @@ def open_source(source: str) -> Opened:
     """
     folder = Path(os.environ.get(VARIABLE) or source)
     recorded = load_recorded(folder, check=False)
-    rules = load_rules()
+    rules = read_rules()
     randomised = recorded.study()
     study, clustering = grouped(left_by(randomised, rules.main()).study)
     return Opened(folder, recorded, rules, randomised, study, clustering)
@@ -139,4 +140,4 @@ def _told(cell: object, digits: int) -> str:
 
 
 def _label(simulated: bool) -> str:
-    return f'<b style="color:{VERMILLION}">{SIMULATED}</b> ' if simulated else ""
+    return f'<b style="color:{VERMILION}">{SIMULATED}</b> ' if simulated else ""

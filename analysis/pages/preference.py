@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from analysis.pages.style import BLUE, INK, ORANGE, SHADE, Captioned, captioned, quiet_style
 from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 
 POINTS = (1, 2, 3, 4, 5)
 STATEMENTS = dict(
@@ -15,7 +15,7 @@ STATEMENTS = dict(
 )
 
 
-def statements_figure(study: Study) -> Captioned:
+def statements_figure(study: StudyData) -> Captioned:
     """How each statement was answered after either instructor."""
     with quiet_style():
         figure = Figure(figsize=(7.2, 3.4))

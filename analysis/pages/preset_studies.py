@@ -49,6 +49,6 @@ def read_missions(folder: Path) -> pd.DataFrame:
         raise SourceError(
             "there are no missions of other simulated studies here",
             place=str(path),
-            mend="`make reproduce` simulates them",
+            hint="`make reproduce` simulates them",
         )
     return pd.read_csv(path)

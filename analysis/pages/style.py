@@ -18,7 +18,7 @@ SHADE = "#ededed"
 BLUE = "#0072B2"
 ORANGE = "#E69F00"
 GREEN = "#009E73"
-VERMILLION = "#D55E00"
+VERMILION = "#D55E00"
 
 SIMULATED = "SIMULATED PEOPLE"
 
@@ -76,7 +76,7 @@ def captioned(name: str, figure: Figure, caption: str, *, simulated: bool) -> Ca
     top = 0.02 + line * (text.count("\n") + 1)
     figure.text(0.015, 0.02, text, fontsize=8, color=INK, va="bottom", ha="left")
     if simulated:
-        figure.text(0.015, top, SIMULATED, fontsize=8, weight="bold", color=VERMILLION, va="bottom")
+        figure.text(0.015, top, SIMULATED, fontsize=8, weight="bold", color=VERMILION, va="bottom")
         top += line
     figure.set_layout_engine("constrained", rect=(0, top + line / 2, 1, 1 - top - line / 2))
     return Captioned(name, figure, f"{SIMULATED}. {caption}" if simulated else caption)

@@ -11,28 +11,28 @@ from analysis.pages.style import (
     GREEN,
     INK,
     LEVEL_COLOURS,
-    VERMILLION,
+    VERMILION,
     Captioned,
     captioned,
     quiet_style,
 )
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 
 #: The paper's colours of the three people of Fig. 10.
-GROUP_COLOURS = {"LOW": BLUE, "MED": VERMILLION, "HIGH": GREEN}
+GROUP_COLOURS = {"LOW": BLUE, "MED": VERMILION, "HIGH": GREEN}
 GROUP_LINES = {"LOW": "-", "MED": "--", "HIGH": "-."}
 SECONDS = 1000.0
 
 
-def adaptive_levels(recorded: Recorded, study: Study) -> pd.DataFrame:
+def adaptive_levels(recorded: Recorded, study: StudyData) -> pd.DataFrame:
     """Every stretch at one level of the adaptive missions, with knowledge groups."""
     levels = with_groups(recorded.frame("levels"), study)
     return levels[levels["adaptivity"] == "adaptive"].reset_index(drop=True)
 
 
-def illustrative(recorded: Recorded, study: Study) -> dict[str, str]:
+def illustrative(recorded: Recorded, study: StudyData) -> dict[str, str]:
     """In each group, the participant whose shares of C1, C2 and C3 lie nearest the group's means.
 
     Nobody picks them, so they stand for their groups; a tie goes to the first name.
@@ -49,7 +49,7 @@ def illustrative(recorded: Recorded, study: Study) -> dict[str, str]:
     return chosen
 
 
-def fig10_traces(recorded: Recorded, study: Study) -> Captioned:
+def fig10_traces(recorded: Recorded, study: StudyData) -> Captioned:
     """The level over time for one participant of each knowledge group (Fig. 10)."""
     levels = adaptive_levels(recorded, study)
     chosen = illustrative(recorded, study)
@@ -80,7 +80,7 @@ def fig10_traces(recorded: Recorded, study: Study) -> Captioned:
         )
 
 
-def all_traces(recorded: Recorded, study: Study) -> Captioned:
+def all_traces(recorded: Recorded, study: StudyData) -> Captioned:
     """Every adaptive mission as a strip of coloured levels, by knowledge group."""
     levels = adaptive_levels(recorded, study)
     height = levels.assign(

@@ -9,7 +9,7 @@ import pandas as pd
 from analysis.pages.mission_rows import with_groups
 from analysis.sources.absent import Refusal
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import Floats, Study
+from analysis.sources.frames import Floats, StudyData
 from analysis.sources.recorded import Recorded
 from game.tables.rejudging import (
     GoalEnd,
@@ -33,7 +33,7 @@ class JudgedMission:
     until_ms: int
 
 
-def judged_missions(recorded: Recorded, study: Study) -> list[JudgedMission]:
+def judged_missions(recorded: Recorded, study: StudyData) -> list[JudgedMission]:
     """The adaptive missions of the people in `study`, in the order of their names.
 
     Raises Refusal without adaptive missions, or for a preset whose rule needs more than
@@ -88,10 +88,10 @@ def stretches(
         )
     rule = rule_of(mission.rule.name, lower_below=lower_below, raise_above=raise_above)
     changes = list(levels_under(rule, judged, mission.ends))
-    untils = [*(at_ms for at_ms, _ in changes[1:]), mission.until_ms]
+    ends = [*(at_ms for at_ms, _ in changes[1:]), mission.until_ms]
     return [
         (level, from_ms, until_ms)
-        for (from_ms, level), until_ms in zip(changes, untils, strict=True)
+        for (from_ms, level), until_ms in zip(changes, ends, strict=True)
         if until_ms > from_ms
     ]
 

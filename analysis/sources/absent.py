@@ -20,7 +20,7 @@ class Refusal(ValueError):
 
 
 class SourceError(AnaError):
-    """Raised where a source cannot be read; the message names the place and the mend."""
+    """Raised where a source cannot be read; the message names the place and a hint."""
 
 
 Leaf: TypeAlias = str | int | float | bool | Absent

@@ -2,12 +2,13 @@
 
 from typing import Final
 
+from game.tables.session_tables import LIKERT_ITEMS as LIKERT_ITEMS
+from game.tables.session_tables import MENTAL_STATES as MENTAL_STATES
+
 KNOWLEDGE: Final = ("LOW", "MED", "HIGH")
 COMPLEXITY: Final = ("C1", "C2", "C3")
 ADAPTIVITY: Final = ("static", "adaptive")
 
-MENTAL_STATES: Final = ("engagement", "confidence", "frustration", "confusion")
-LIKERT_ITEMS: Final = ("pref1", "pref2", "pref3", "pref4")
 OUTCOMES: Final = ("victims", *MENTAL_STATES, "preference")
 
 ALIGNED: Final = (("LOW", "C1"), ("MED", "C2"), ("HIGH", "C3"))

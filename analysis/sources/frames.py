@@ -23,7 +23,7 @@ Ints: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class Study:
+class StudyData:
     """Tidy tables of one study, in a fixed order of rows; `notes` say what a reader must know."""
 
     participants: pd.DataFrame
@@ -46,7 +46,7 @@ class Study:
                 "there are no knowledge groups: neither stated nor formed from quiz scores"
             )
 
-    def without(self, participants: Iterable[str]) -> "Study":
+    def without(self, participants: Iterable[str]) -> "StudyData":
         """The same study without these participants."""
         gone = list(participants)
         return replace(
@@ -55,19 +55,19 @@ class Study:
             rounds=self.rounds[~self.rounds["participant"].isin(gone)].reset_index(drop=True),
         )
 
-    def with_groups(self, knowledge: pd.Series) -> "Study":
+    def with_groups(self, knowledge: pd.Series) -> "StudyData":
         """The same study with these knowledge groups (index: participant)."""
         groups = knowledge.reindex(self.participants.index).astype(object)
         return replace(self, participants=self.participants.assign(knowledge=groups))
 
-    def noted(self, *notes: str) -> "Study":
+    def noted(self, *notes: str) -> "StudyData":
         """The same study with more notes."""
         return replace(self, notes=(*self.notes, *notes))
 
 
 def make_study(
     participants: pd.DataFrame, rounds: pd.DataFrame, *, label: str, simulated: bool = False
-) -> Study:
+) -> StudyData:
     """Check the two tables, add `preference`, and put their rows in order.
 
     `participants` is indexed by participant. Raises SourceError for an illegal or repeated value,
@@ -94,7 +94,7 @@ def make_study(
         adaptivity=pd.Categorical(rounds["adaptivity"], ADAPTIVITY, ordered=True),
     ).sort_values(["participant", "adaptivity"], ignore_index=True)
     ordered["adaptivity"] = ordered["adaptivity"].astype(str)
-    study = Study(participants.sort_index(), ordered, label, simulated)
+    study = StudyData(participants.sort_index(), ordered, label, simulated)
     counts = ordered["participant"].value_counts()
     single = sorted(str(who) for who in counts.index[counts < len(ADAPTIVITY)])
     if single:
@@ -159,13 +159,13 @@ class Paired:
         return (self.adaptive + self.static) / 2
 
 
-def both_rounds(study: Study, outcome: str) -> pd.DataFrame:
+def both_rounds(study: StudyData, outcome: str) -> pd.DataFrame:
     """Columns static and adaptive of one outcome by participant, listwise (no NaN)."""
     wide = study.rounds.pivot(index="participant", columns="adaptivity", values=outcome)
     return wide.reindex(columns=list(ADAPTIVITY)).dropna()
 
 
-def paired(study: Study, outcome: str) -> Paired:
+def paired(study: StudyData, outcome: str) -> Paired:
     """The listwise sample of one outcome (both rounds answered, knowledge group known).
 
     Raises Refusal where the study has no knowledge groups.

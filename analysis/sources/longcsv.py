@@ -11,7 +11,7 @@ import pandas as pd
 
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES, ORDERS
-from analysis.sources.frames import Study, make_study
+from analysis.sources.frames import StudyData, make_study
 
 MISSING = frozenset({"", "na", "nan", "n/a", "null", "none", "."})
 MEASURED = ("victims", *MENTAL_STATES, *LIKERT_ITEMS)
@@ -30,11 +30,11 @@ FALSE_WORDS = frozenset({"false", "no", "0"})
 PREFERRED = ("static", "adaptive", "neither")
 
 
-def read_long_csv(path: Path, quiz: Path | None = None) -> Study:
+def read_long_csv(path: Path, quiz: Path | None = None) -> StudyData:
     """Read a long CSV, and the quiz scores if given, into tidy tables.
 
     The `knowledge` column may be left out where `quiz` is given: groups are then formed from the
-    scores. Raises SourceError naming file, line, column and mend.
+    scores. Raises SourceError naming file, line, column and a hint.
     """
     text = _read_text_table(path, NEEDED)
     if "knowledge" not in text.columns and quiz is None:

@@ -13,7 +13,7 @@ import pandas as pd
 
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES
-from analysis.sources.frames import Study, make_study
+from analysis.sources.frames import StudyData, make_study
 from game.tables.columns import Column, cells, columns
 from game.tables.session_tables import ROW_TYPES
 
@@ -50,7 +50,7 @@ class Recorded:
         """The same study with more notes."""
         return replace(self, notes=(*self.notes, *notes))
 
-    def study(self) -> Study:
+    def study(self) -> StudyData:
         """Everybody randomised, as the statistics take it.
 
         Raises SourceError where nobody got as far as the allocation.

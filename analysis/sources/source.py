@@ -3,17 +3,17 @@
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.longcsv import read_long_csv
 from analysis.sources.recorded import Recorded
 from analysis.sources.study_folder import (
-    StudyMode,
     Tick,
     is_study_folder,
     mode_of,
     read_study_folder,
 )
 from analysis.sources.tables_folder import is_tables_folder, read_tables
+from game.journal.records import StudyMode
 
 
 def load_study(
@@ -23,10 +23,10 @@ def load_study(
     *,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
-) -> Study:
+) -> StudyData:
     """Read one long CSV, with quiz scores if given, a study folder, or a folder of tables.
 
-    Raises SourceError or JournalError naming the place and the mend.
+    Raises SourceError or JournalError naming the place and a hint.
     """
     if source.is_dir():
         if quiz is not None:
@@ -52,7 +52,7 @@ def load_recorded(
 ) -> Recorded:
     """Read a study folder (`mode` and `check` as `read_study_folder` has them), or its tables.
 
-    Raises SourceError or JournalError naming the place and the mend.
+    Raises SourceError or JournalError naming the place and a hint.
     """
     if is_tables_folder(source):
         return read_tables(source)
@@ -61,5 +61,5 @@ def load_recorded(
     raise SourceError(
         "this is neither a study folder nor a folder of tables",
         place=str(source),
-        mend="Give the folder that `ana study new` or `ana simulate` has made",
+        hint="Give the folder that `ana study new` or `ana simulate` has made",
     )

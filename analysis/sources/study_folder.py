@@ -5,17 +5,15 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from os import cpu_count
 from pathlib import Path
-from typing import Final, Literal, get_args
 
 from analysis.sources.absent import SourceError
 from analysis.sources.recorded import ANALYSED, Recorded, frame_of, recorded
 from game.journal.folders import SESSIONS, journals
 from game.journal.reader import read_journal
+from game.journal.records import STUDY_MODES, StudyMode
 from game.session.verification import verify
 from game.tables.session_tables import Tables, combined, session_tables
 
-StudyMode = Literal["live", "pilot", "simulated"]
-MODES: Final[tuple[StudyMode, ...]] = get_args(StudyMode)
 #: From so many journals on they are read by several processes.
 MANY = 4
 #: So many journals that do not verify are named.
@@ -45,7 +43,7 @@ def read_study_folder(
     """The sessions of one mode in a study folder; without `mode`, of the only one there is.
 
     With `check` every mission is played again from its actions and must come out as recorded.
-    Raises SourceError or JournalError, naming the place and the mend.
+    Raises SourceError or JournalError, naming the place and a hint.
     """
     mode = mode_of(folder, mode)
     paths = journals(folder, mode)
@@ -53,7 +51,7 @@ def read_study_folder(
         raise SourceError(
             "there are no sessions in it",
             place=str(folder / SESSIONS / mode),
-            mend=f"Take those that there are: {_there_are(folder)}",
+            hint=f"Take those that there are: {_there_are(folder)}",
         )
     read = _read_all(paths, check, tick)
     _refuse_changed(read)
@@ -80,31 +78,31 @@ def mode_of(folder: Path, mode: StudyMode | None) -> StudyMode:
 
 
 def _only_mode(folder: Path) -> StudyMode:
-    found: list[StudyMode] = [mode for mode in MODES if journals(folder, mode)]
+    found: list[StudyMode] = [mode for mode in STUDY_MODES if journals(folder, mode)]
     real = [mode for mode in found if mode != "simulated"]
     if "simulated" in found and real:
         raise SourceError(
             f"it holds {' and '.join(real)} sessions, and simulated ones; they are analysed apart",
             place=str(folder),
-            mend=f"Say which: {_options(found)}",
+            hint=f"Say which: {_options(found)}",
         )
     if found == ["pilot"]:
         raise SourceError(
             "it holds pilot sessions alone, which are no data",
             place=str(folder),
-            mend="To try the analysis on them all the same: --mode pilot",
+            hint="To try the analysis on them all the same: --mode pilot",
         )
     if not found:
         raise SourceError(
             "there are no sessions in it",
             place=str(folder),
-            mend="`ana study run` lets participants in, `ana simulate` simulates some",
+            hint="`ana study run` lets participants in, `ana simulate` simulates some",
         )
     return found[0]
 
 
 def _there_are(folder: Path) -> str:
-    return _options([mode for mode in MODES if journals(folder, mode)]) or "none"
+    return _options([mode for mode in STUDY_MODES if journals(folder, mode)]) or "none"
 
 
 def _options(modes: Sequence[StudyMode]) -> str:
@@ -140,7 +138,7 @@ def _refuse_changed(read: Sequence[_Read]) -> None:
         more = f"; and {len(changed) - NAMED} more" if len(changed) > NAMED else ""
         raise SourceError(
             f"{len(changed)} of {len(read)} journals do not verify: {told}{more}",
-            mend="Restore the originals, or analyse them as they are with --no-verify",
+            hint="Restore the originals, or analyse them as they are with --no-verify",
         )
 
 
@@ -151,13 +149,13 @@ def _refuse_mislabelled(one: _Read, mode: StudyMode) -> None:
         raise SourceError(
             f"this is a {kind} session of mode {person.mode} among the {mode} ones",
             place=str(one.path),
-            mend="Put it back where it was recorded",
+            hint="Put it back where it was recorded",
         )
     if person.participant != one.path.parent.name:
         raise SourceError(
             f"this is the journal of participant {person.participant}",
             place=str(one.path),
-            mend="Put it back into that participant's folder",
+            hint="Put it back into that participant's folder",
         )
 
 

@@ -63,7 +63,7 @@ def _read_table(path: Path, name: str) -> pd.DataFrame:
         raise SourceError(
             f"the table cannot be read ({error})",
             place=str(path),
-            mend="Write the tables anew with this version: python -m analysis.reproduce",
+            hint="Write the tables again with this version: python -m analysis.reproduce",
         ) from error
 
 

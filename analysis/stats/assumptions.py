@@ -1,12 +1,14 @@
 """What the ANOVA assumes: equal spread, normal residuals; and a test that needs neither."""
 
+from typing import Any, Literal
+
 import numpy as np
 from scipy import stats
 
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.frames import Floats, Paired
 from analysis.stats.anova import HYPOTHESES, WITHIN
-from analysis.stats.cellmodel import CELLS, CellModel, fit_cells
+from analysis.stats.cellmodel import CELLS, FLAT
 from analysis.stats.posthoc import RoundModels
 
 #: The fewest residuals that Shapiro and Wilk's W is defined for.
@@ -18,14 +20,8 @@ def assumption_rows(pair: Paired) -> Row:
     variables = {"static": pair.static, "adaptive": pair.adaptive, "diff": pair.difference}
     models = RoundModels.of(pair)
     return {
-        "levene_mean": {
-            name: equal_spread(values, fit_cells(values, pair.cell).means, pair)
-            for name, values in variables.items()
-        },
-        "levene_median": {
-            name: equal_spread(values, _medians(values, pair), pair)
-            for name, values in variables.items()
-        },
+        "levene_mean": {name: equal_spread(v, pair, "mean") for name, v in variables.items()},
+        "levene_median": {name: equal_spread(v, pair, "median") for name, v in variables.items()},
         "shapiro_resid": {
             "mean": _shapiro(models.mean.residuals),
             "diff": _shapiro(models.difference.residuals),
@@ -33,29 +29,18 @@ def assumption_rows(pair: Paired) -> Row:
     }
 
 
-def _medians(values: Floats, pair: Paired) -> Floats:
-    return np.array(
-        [
-            np.median(values[pair.cell == index]) if (pair.cell == index).any() else np.nan
-            for index in range(len(CELLS))
-        ]
-    )
-
-
-def equal_spread(values: Floats, centres: Floats, pair: Paired) -> Row | Absent:
-    """One-way F of the distances from the cells' centres, over the cells with people in them."""
-    model = fit_cells(np.abs(values - centres[pair.cell]), pair.cell)
-    reason = model.why_no_error()
-    if reason is not None:
-        return Absent(f"distances from the cells' centres: {reason}")
-    filled = model.counts > 0
-    df1 = int(np.count_nonzero(filled)) - 1
-    if df1 == 0:
+def equal_spread(values: Floats, pair: Paired, centre: Literal["mean", "median"]) -> Row | Absent:
+    """Levene's test over the analysis cells with people in them."""
+    groups = [values[pair.cell == cell] for cell in np.unique(pair.cell)]
+    if len(groups) < 2:
         return Absent("one analysis cell alone has people in it")
-    counts, means = model.counts[filled], model.means[filled]
-    between = float(counts @ (means - np.average(means, weights=counts)) ** 2)
-    f = between / df1 / (model.sse / model.df)
-    return {"F": f, "df1": df1, "df2": model.df, "p": float(stats.f.sf(f, df1, model.df))}
+    df1, df2 = len(groups) - 1, len(values) - len(groups)
+    middle = np.mean if centre == "mean" else np.median
+    distances = [np.abs(group - middle(group)) for group in groups]
+    if df2 < 1 or all(np.ptp(d) <= FLAT * np.abs(values).max() for d in distances):
+        return Absent("distances from the cells' centres: there is no error variance")
+    test = stats.levene(*groups, center=centre)
+    return {"F": float(test.statistic), "df1": df1, "df2": df2, "p": float(test.pvalue)}
 
 
 def _shapiro(residuals: Floats) -> Row | Absent:
@@ -70,32 +55,25 @@ def _shapiro(residuals: Floats) -> Row | Absent:
 def hc3_rows(pair: Paired) -> list[Row]:
     """Within effects with the HC3 covariance, which assumes no equal spread (MacKinnon & White).
 
-    In the saturated model the leverage of a person is 1/n of their cell. Raises Refusal for a cell
-    with fewer than two people.
+    Raises Refusal for a cell with fewer than two people.
     """
     model = RoundModels.of(pair).difference
-    variances = _hc3_variances(model)
+    model.require_every_cell()
+    if bool((model.counts < 2).any()):
+        raise Refusal("HC3 needs at least two people in every analysis cell")
+    import statsmodels.api as sm
+
+    fit = sm.OLS(pair.difference, np.eye(len(CELLS))[pair.cell]).fit(cov_type="HC3", use_t=True)
     return [
-        {"effect": effect, **_hc3_test(model, variances, hypothesis)}
+        {"effect": effect, **_hc3_test(fit, hypothesis)}
         for effect, hypothesis in zip(WITHIN, HYPOTHESES.values(), strict=True)
     ]
 
 
-def _hc3_test(model: CellModel, variances: Floats, hypothesis: Floats) -> Row:
-    spread = (hypothesis * variances) @ hypothesis.T
-    q = len(hypothesis)
-    if np.linalg.matrix_rank(spread) < q:
+def _hc3_test(fit: Any, hypothesis: Floats) -> Row:
+    spread = hypothesis @ fit.cov_params() @ hypothesis.T
+    if np.linalg.matrix_rank(spread) < len(hypothesis):
         flat = Absent("too many analysis cells without variation")
         return {"F": flat, "p": flat}
-    gap = hypothesis @ model.means
-    f = float(gap @ np.linalg.solve(spread, gap)) / q
-    return {"F": f, "p": float(stats.f.sf(f, q, model.df))}
-
-
-def _hc3_variances(model: CellModel) -> Floats:
-    model.require_every_cell()
-    if bool((model.counts < 2).any()):
-        raise Refusal("HC3 needs at least two people in every analysis cell")
-    leverage = 1 / model.counts
-    squares = (model.residuals / (1 - leverage[model.cell])) ** 2
-    return np.bincount(model.cell, weights=squares, minlength=len(CELLS)) / model.counts**2
+    test = fit.f_test(hypothesis)
+    return {"F": float(test.fvalue), "p": float(test.pvalue)}

@@ -12,26 +12,6 @@ from analysis.sources.frames import Floats
 PValue: TypeAlias = float | Absent
 
 
-def bonferroni(p: Floats) -> Floats:
-    """p times the size of the family, at most 1."""
-    return np.minimum(1.0, p * len(p))
-
-
-def sidak(p: Floats) -> Floats:
-    """1 - (1 - p)^m, without loss of digits for small p (Sidak, 1967)."""
-    with np.errstate(divide="ignore"):
-        return np.asarray(-np.expm1(len(p) * np.log1p(-p)), dtype=float)
-
-
-def holm(p: Floats) -> Floats:
-    """Step-down Bonferroni (Holm, 1979)."""
-    order = np.argsort(p, kind="stable")
-    steps = np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1))
-    adjusted = np.empty_like(p)
-    adjusted[order] = np.minimum(1.0, steps)
-    return adjusted
-
-
 def tukey(t: Floats, means: int, df: int) -> Floats:
     """p of the studentised range over `means` means for these t (Tukey-Kramer).
 
@@ -55,13 +35,21 @@ def _nodes(lower: float, upper: float, number: int = 96) -> tuple[Floats, Floats
     return lower + half * (nodes + 1), half * weights
 
 
-METHODS = {"p_bonf": bonferroni, "p_sidak": sidak, "p_holm": holm}
+METHODS = {"p_bonf": "bonf", "p_sidak": "sidak", "p_holm": "holm"}
+"""pingouin's names. `multipletests` of statsmodels gives the same, but collects garbage each time,
+which would take most of the time of an analysis."""
 
 
 def adjusted(family: Sequence[PValue]) -> list[dict[str, PValue]]:
     """For each member: p_none, p_bonf, p_sidak, p_holm; the family is its p-values that exist."""
-    known = np.array([p for p in family if not isinstance(p, Absent)], dtype=float)
-    by_method = {name: iter(method(known).tolist()) for name, method in METHODS.items()}
+    import pingouin
+
+    known = [p for p in family if not isinstance(p, Absent)]
+    with np.errstate(divide="ignore"):
+        by_method = {
+            name: iter(pingouin.multicomp(known, method=method)[1] if known else ())
+            for name, method in METHODS.items()
+        }
     return [
         {"p_none": p, **dict.fromkeys(METHODS, p)}
         if isinstance(p, Absent)

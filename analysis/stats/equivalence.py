@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pandas as pd
-import pingouin
 from scipy import stats
 
 from analysis.sources.absent import Absent, Refusal, Row
@@ -29,34 +28,37 @@ def paired_row(rounds: pd.DataFrame) -> Row:
     sd = float(difference.std(ddof=1))
     if sd == 0:
         raise Refusal("everybody has the same difference between the rounds")
-    mean = float(difference.mean())
-    se = sd / n**0.5
-    t = mean / se
+    test = stats.ttest_1samp(difference, 0.0)
+    t = float(test.statistic)
     bayes = jzs_bayes_factor(t, n)
     return {
-        "mean_diff": mean,
+        "mean_diff": float(difference.mean()),
         "sd_diff": sd,
         "t": t,
         "df": n - 1,
-        "p": float(2 * stats.t.sf(abs(t), n - 1)),
-        "dz": mean / sd,
+        "p": float(test.pvalue),
+        "dz": t / n**0.5,
         "bf10_jzs_r0707": bayes
         if np.isfinite(bayes)
         else Absent("the Bayes factor is too large for a number"),
-        **_equivalence(mean, se, n, BOUND_SDS * float(rounds["static"].std())),
+        **_equivalence(rounds, BOUND_SDS * float(rounds["static"].std())),
     }
 
 
-def _equivalence(mean: float, se: float, n: int, bound: float) -> Row:
+def _equivalence(rounds: pd.DataFrame, bound: float) -> Row:
     if bound == 0:
         none = Absent("the static round does not vary, so there is no bound")
         return {"tost_bound": none, "tost_p": none}
-    one_sided = stats.t.sf(np.array([mean + bound, bound - mean]) / se, n - 1)
-    return {"tost_bound": bound, "tost_p": float(one_sided.max())}
+    import pingouin
+
+    test = pingouin.tost(rounds["adaptive"], rounds["static"], bound, paired=True)
+    return {"tost_bound": bound, "tost_p": float(test["pval"].iloc[0])}
 
 
 def jzs_bayes_factor(t: float, n: int) -> float:
     """BF10 of a paired t of n people, default JZS prior; infinite beyond the largest float."""
+    import pingouin
+
     try:
         return float(pingouin.bayesfactor_ttest(t, n, paired=True, r=PRIOR_SCALE))
     except (ZeroDivisionError, OverflowError):

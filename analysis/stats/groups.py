@@ -4,12 +4,12 @@ import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, attempt
 from analysis.sources.factors import KNOWLEDGE
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.stats.clustering import Clustering, knowledge_groups
 from analysis.stats.power import EVEN
 
 
-def clustering_of(study: Study) -> Clustering:
+def clustering_of(study: StudyData) -> Clustering:
     """Cluster the static round's quiz scores. Raises Refusal without scores to cluster."""
     if not study.has("quiz_static"):
         raise Refusal("the source has no quiz scores")
@@ -17,10 +17,10 @@ def clustering_of(study: Study) -> Clustering:
     return knowledge_groups({str(who): float(score) for who, score in scores.items()})
 
 
-def grouped(study: Study) -> tuple[Study, Clustering | Absent]:
+def grouped(study: StudyData) -> tuple[StudyData, Clustering | Absent]:
     """The study with knowledge groups, and the clustering of its scores.
 
-    Groups that the source states are kept, and a note names whoever the scores would place
+    Groups that the source states are kept, and a note names the people whom the scores would place
     elsewhere; a source that states none gets the groups of its scores.
     """
     clustering = attempt(clustering_of, study)
@@ -40,7 +40,7 @@ def grouped(study: Study) -> tuple[Study, Clustering | Absent]:
     return study, clustering
 
 
-def group_shares(study: Study) -> tuple[float, ...]:
+def group_shares(study: StudyData) -> tuple[float, ...]:
     """The shares of LOW, MED and HIGH; even ones where the study has no groups."""
     if not study.has("knowledge"):
         return EVEN

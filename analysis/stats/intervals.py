@@ -1,8 +1,10 @@
 """Bootstrap intervals: percentiles over people drawn again, seeded."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import stats
 
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import Floats, Ints
@@ -34,31 +36,22 @@ class Interval:
 
 def mean_interval(values: Floats) -> Interval:
     """The mean. Raises Refusal for no values."""
-    means = values[_draws(len(values))].mean(axis=1)
-    return _interval(float(values.mean()), means)
+    return _interval(_mean, values)
 
 
 def gap_interval(ones: Floats, others: Floats) -> Interval:
     """Mean of `ones` less mean of `others`, two groups. Raises Refusal for an empty one."""
-    means = ones[_draws(len(ones))].mean(axis=1)
-    other_means = others[_draws(len(others), 1)].mean(axis=1)
-    return _interval(float(ones.mean() - others.mean()), means - other_means)
+    return _interval(lambda a, b, axis=-1: _mean(a, axis) - _mean(b, axis), ones, others)
 
 
 def auc(ones: Floats, others: Floats) -> float:
     """How often one of `ones` is greater than one of `others`; a tie counts half."""
-    gaps = np.sign(ones[:, None] - others[None, :])
-    return float((gaps.mean() + 1) / 2)
+    return float(_auc(ones, others))
 
 
 def auc_interval(ones: Floats, others: Floats) -> Interval:
     """The same with its interval. Raises Refusal for an empty group."""
-    first, second = _draws(len(ones)), _draws(len(others), 1)
-    gaps = (np.sign(ones[:, None] - others[None, :]) + 1) / 2
-    drawn = np.array(
-        [gaps[np.ix_(one, other)].mean() for one, other in zip(first, second, strict=True)]
-    )
-    return _interval(auc(ones, others), drawn)
+    return _interval(_auc, ones, others)
 
 
 def clustered_share(people: Ints, count: int, truth: Floats) -> Interval:
@@ -67,22 +60,37 @@ def clustered_share(people: Ints, count: int, truth: Floats) -> Interval:
     `people` numbers each row's person from 0 to `count` - 1. Raises Refusal for nobody.
     """
     rows = np.bincount(people, minlength=count).astype(float)
-    sums = np.bincount(people, truth, minlength=count)
-    draws = _draws(count)
-    drawn = rows[draws].sum(axis=1)
-    shares = np.divide(
-        sums[draws].sum(axis=1), drawn, out=np.full(len(drawn), np.nan), where=drawn > 0
-    )
-    return _interval(float(truth.mean()), shares)
+    sums = np.bincount(people, truth, minlength=count).astype(float)
+    return _interval(_share, sums, rows, paired=True)
 
 
-def _draws(size: int, purpose: int = 0) -> Ints:
-    if size == 0:
+def _mean(values: Floats, axis: int = -1) -> Floats:
+    return np.asarray(values.mean(axis))
+
+
+def _share(sums: Floats, rows: Floats, axis: int = -1) -> Floats:
+    with np.errstate(invalid="ignore"):
+        return np.asarray(sums.sum(axis) / rows.sum(axis))
+
+
+def _auc(ones: Floats, others: Floats, axis: int = -1) -> Floats:
+    ranks = stats.rankdata(np.concatenate([ones, others], axis=axis), axis=axis)
+    n, m = ones.shape[axis], others.shape[axis]
+    rank_sum = np.take(ranks, np.arange(n), axis=axis).sum(axis)
+    return np.asarray((rank_sum - n * (n + 1) / 2) / (n * m))
+
+
+def _interval(statistic: Callable[..., Floats], *samples: Floats, paired: bool = False) -> Interval:
+    if any(len(sample) == 0 for sample in samples):
         raise Refusal("nobody is in one of the groups")
-    rng = np.random.default_rng([SEED, size, purpose])
-    return rng.integers(0, size, (DRAWS, size))
-
-
-def _interval(estimate: float, drawn: Floats) -> Interval:
+    drawn = stats.bootstrap(
+        samples,
+        statistic,
+        paired=paired,
+        n_resamples=DRAWS,
+        method="percentile",
+        rng=np.random.default_rng([SEED, *map(len, samples)]),
+        vectorized=True,
+    ).bootstrap_distribution
     lower, upper = np.nanpercentile(drawn, (2.5, 97.5))
-    return Interval(estimate, float(lower), float(upper))
+    return Interval(float(statistic(*samples)), float(lower), float(upper))

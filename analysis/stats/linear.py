@@ -1,7 +1,6 @@
 """Least squares with columns added to a base: the incremental F test, and one added slope."""
 
 import numpy as np
-from scipy import stats
 
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import Floats
@@ -20,25 +19,21 @@ def added_columns(y: Floats, base: Floats, extra: Floats) -> FTest:
     df2 = len(y) - rank
     if df1 < extra.shape[1]:
         raise Refusal("the effect cannot be told apart from the analysis cells")
-    error = _residual(y, full)
-    sse = float(error @ error)
-    if df2 < 1 or bool((np.abs(error) <= FLAT * np.abs(y).max()).all()):
+    import statsmodels.api as sm
+
+    both = sm.OLS(y, full).fit()
+    if df2 < 1 or bool((np.abs(both.resid) <= FLAT * np.abs(y).max()).all()):
         raise Refusal("no error variance is left to test against")
-    without = _residual(y, base)
-    ss = max(0.0, float(without @ without) - sse)
-    f = ss / df1 / (sse / df2)
-    return FTest(df1, df2, ss, sse, f, float(stats.f.sf(f, df1, df2)))
+    f, p, _ = both.compare_f_test(sm.OLS(y, base).fit())
+    ss = max(0.0, float(f)) * df1 * float(both.mse_resid)
+    return FTest(df1, df2, ss, float(both.ssr), max(0.0, float(f)), float(p))
 
 
 def added_slope(y: Floats, base: Floats, column: Floats) -> Contrast:
     """The slope of one column given `base`, with its standard error, t and p."""
+    import statsmodels.api as sm
+
     test = added_columns(y, base, column[:, None])
-    own = _residual(column, base)
-    estimate = float(own @ y / (own @ own))
-    se = float(np.sqrt(test.mse / (own @ own)))
+    fit = sm.OLS(y, np.column_stack([base, column])).fit()
+    estimate, se = float(fit.params[-1]), float(fit.bse[-1])
     return Contrast(estimate, se, test.df2, estimate / se, test.p)
-
-
-def _residual(y: Floats, x: Floats) -> Floats:
-    coefficients = np.linalg.lstsq(x, y, rcond=None)[0]
-    return np.asarray(y - x @ coefficients, dtype=float)

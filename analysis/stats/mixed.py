@@ -14,7 +14,7 @@ from scipy import optimize, stats
 
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import Floats, Ints, Study
+from analysis.sources.frames import Floats, Ints, StudyData
 
 FACTORS = {"knowledge": KNOWLEDGE, "complexity": COMPLEXITY, "adaptivity": ADAPTIVITY}
 TERMS = (
@@ -105,13 +105,21 @@ class _Profile:
         self.y, self.x, self.person = y, x, person
         self.counts = np.bincount(person).astype(float)
 
+    def summed(self, values: Floats) -> Floats:
+        """The sum over each row's participant (J applied)."""
+        sums = np.zeros((len(self.counts), values.shape[1]))
+        np.add.at(sums, self.person, values)
+        return np.asarray(sums[self.person], dtype=float)
+
+    def weighted(self, values: Floats, lam: float) -> Floats:
+        """(I + lambda J)^-1 applied within each participant."""
+        shrink = (lam / (1 + lam * self.counts))[self.person]
+        return np.asarray(values - shrink[:, None] * self.summed(values), dtype=float)
+
     def whitened(self, values: Floats, lam: float) -> Floats:
         """(I + lambda J)^-1/2 applied within each participant."""
         shrink = (1 - 1 / np.sqrt(1 + lam * self.counts)) / self.counts
-        sums = np.zeros((len(self.counts), values.shape[1]))
-        np.add.at(sums, self.person, values)
-        whitened: Floats = values - (shrink[:, None] * sums)[self.person]
-        return whitened
+        return np.asarray(values - shrink[self.person][:, None] * self.summed(values), dtype=float)
 
     def solve(self, lam: float) -> tuple[Floats, Floats, float, float]:
         """beta, (X'W X)^-1, the residual variance and the REML log-likelihood at lambda."""
@@ -179,30 +187,39 @@ def _variance_information(
 ) -> tuple[tuple[Floats, Floats], Floats]:
     """Slopes of the fixed effects' covariance, and the observed REML information.
 
-    With P = V^-1 - V^-1 X C X' V^-1 and V_i = dV/d(tau^2, sigma^2), the information is
-    y'P V_i P V_j P y - tr(P V_i P V_j)/2, and dC = C X' V^-1 V_i V^-1 X C.
+    With W = V^-1, P = W - W X C X' W and V_1, V_2 = dV/d(tau^2, sigma^2), the information is
+    y'P V_i P V_j P y - tr(P V_i P V_j)/2, and dC = C X' W V_i W X C. V is made of a block a person,
+    so nothing larger than rows x columns is ever held.
     """
-    n = len(profile.y)
-    same = (profile.person[:, None] == profile.person[None, :]).astype(float)
-    weights = profile.whitened(profile.whitened(np.eye(n), lam).T, lam) / sigma2
-    wx = weights @ profile.x
     covariance = sigma2 * inverse
-    projector = weights - wx @ covariance @ wx.T
-    fitted = projector @ profile.y
-    parts = (same, np.eye(n))
-    projected = [projector @ part for part in parts]
-    tilted = [part @ fitted for part in parts]
-    information = np.array(
-        [
-            [
-                tilted[i] @ projector @ tilted[j] - np.sum(projected[i] * projected[j].T) / 2
-                for j in range(2)
-            ]
-            for i in range(2)
-        ]
-    )
-    slopes = [covariance @ wx.T @ part @ wx @ covariance for part in parts]
+    wx = profile.weighted(profile.x, lam) / sigma2
+    fitted = profile.weighted(profile.y[:, None], lam) / sigma2
+    fitted = fitted - wx @ (covariance @ (wx.T @ profile.y[:, None]))
+    parts = (profile.summed, lambda values: values)
+    tilted = [part(fitted) for part in parts]
+    bent = [part(wx) for part in parts]
+    crossed = [wx.T @ part for part in bent]
+    blocks = _block_traces(profile.counts, lam, sigma2)
+    information = np.empty((2, 2))
+    for i in range(2):
+        for j in range(2):
+            outer = profile.weighted(tilted[j], lam) / sigma2
+            outer = outer - wx @ (covariance @ (wx.T @ tilted[j]))
+            inner = bent[i].T @ (profile.weighted(bent[j], lam) / sigma2)
+            trace = blocks[i][j] - 2 * np.sum(covariance * inner)
+            trace += np.sum((covariance @ crossed[i]) * (covariance @ crossed[j]).T)
+            information[i, j] = float(tilted[i][:, 0] @ outer[:, 0]) - trace / 2
+    slopes = [covariance @ cross @ covariance for cross in crossed]
     return (slopes[0], slopes[1]), information
+
+
+def _block_traces(counts: Floats, lam: float, sigma2: float) -> list[list[float]]:
+    """tr(W V_i W V_j): sums over persons, whose blocks of W are (I - c J) / sigma^2."""
+    left = 1 / (1 + lam * counts)
+    both = float((counts**2 * left**2).sum())
+    one = float((counts * left**2).sum())
+    none = float((counts - 1 + left**2).sum())
+    return [[both / sigma2**2, one / sigma2**2], [one / sigma2**2, none / sigma2**2]]
 
 
 def _f_test(fit: MixedFit, columns: list[int]) -> tuple[float, int, float, float]:
@@ -233,7 +250,7 @@ def _combined_df(dfs: Floats, q: int) -> float:
     return 2 * expected / (expected - q)
 
 
-def mixed_model(study: Study, outcome: str) -> Row:
+def mixed_model(study: StudyData, outcome: str) -> Row:
     """Fixed effects, variances and Type III tests of one outcome, on every answered round.
 
     Where a cell of the three factors has no rows the effects have no estimate: the variances are

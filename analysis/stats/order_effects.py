@@ -13,20 +13,20 @@ import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import OUTCOMES
-from analysis.sources.frames import Floats, Paired, Study, paired
+from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.cellmodel import CELLS, Contrast, contrast_row
 from analysis.stats.linear import added_slope
 
 #: A code of +-1 a participant (index: participant; NaN where unknown).
-Code: TypeAlias = Callable[[Study], pd.Series]
+Code: TypeAlias = Callable[[StudyData], pd.Series]
 
 
-def order_rows(study: Study) -> dict[str, list[Row] | Absent]:
+def order_rows(study: StudyData) -> dict[str, list[Row] | Absent]:
     """Round, order and building effects of each outcome, as far as the source knows them."""
     return {outcome: attempt(_rows, study, outcome) for outcome in OUTCOMES}
 
 
-def _rows(study: Study, outcome: str) -> list[Row]:
+def _rows(study: StudyData, outcome: str) -> list[Row]:
     effects: list[tuple[str, str, Code, bool]] = []
     if study.has("order"):
         effects += [
@@ -59,7 +59,7 @@ def _rows(study: Study, outcome: str) -> list[Row]:
     return rows
 
 
-def _slope(study: Study, outcome: str, code: Code, within: bool) -> Contrast:
+def _slope(study: StudyData, outcome: str, code: Code, within: bool) -> Contrast:
     pair = paired(study, outcome)
     codes = code(study).reindex(pd.Index(pair.participants)).to_numpy(dtype=float)
     known = np.isfinite(codes)
@@ -76,11 +76,11 @@ def cell_columns(pair: Paired) -> Floats:
     return indicators[:, indicators.any(axis=0)]
 
 
-def _order(study: Study) -> pd.Series:
+def _order(study: StudyData) -> pd.Series:
     return study.participants["order"].map({"static_first": 1.0, "adaptive_first": -1.0})
 
 
-def _building(study: Study) -> pd.Series:
+def _building(study: StudyData) -> pd.Series:
     """+1 for a static round in the first of two buildings, by name."""
     names = sorted(study.rounds["building"].dropna().unique())
     if len(names) != 2:

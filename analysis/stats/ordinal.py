@@ -11,14 +11,14 @@ from scipy import optimize, special, stats
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE, LIKERT_ITEMS
-from analysis.sources.frames import Floats, Ints, Study, both_rounds
+from analysis.sources.frames import Floats, Ints, StudyData, both_rounds
 from analysis.stats.cellmodel import CELLS
 
 #: The likelihood counts as greatest where no slope of its logarithm is steeper than this.
 GRADIENT = 1e-4
 
 
-def ordinal_rows(study: Study) -> dict[str, Row]:
+def ordinal_rows(study: StudyData) -> dict[str, Row]:
     """For each item: the sign test over people, and the odds model's interaction by round."""
     return {
         item: {
@@ -53,7 +53,7 @@ def sign_test(rounds: pd.DataFrame) -> Row:
     }
 
 
-def _interaction(study: Study, item: str, adaptivity: str) -> Row:
+def _interaction(study: StudyData, item: str, adaptivity: str) -> Row:
     if not study.has("knowledge"):
         raise Refusal("there are no knowledge groups")
     people = study.participants[["knowledge", "complexity"]]

@@ -5,13 +5,13 @@ from scipy import stats
 
 from analysis.sources.absent import Refusal, Row
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, ORDERS
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.stats.corrections import adjusted
 
 FAMILIES = {"order": ORDERS, "complexity": COMPLEXITY, "knowledge": KNOWLEDGE}
 
 
-def preferred_rows(study: Study) -> Row:
+def preferred_rows(study: StudyData) -> Row:
     """Adaptive choices among those who chose, against one half; Holm inside each family.
 
     Raises Refusal where the source has no `preferred_instructor`.

@@ -4,25 +4,27 @@ import pandas as pd
 
 from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 
 
-def cronbach_alpha(items: pd.DataFrame) -> float | Absent:
-    """k/(k-1) (1 - sum of variances / sum of covariances), covariances over complete pairs.
+def cronbach_alpha(items: pd.DataFrame) -> tuple[float | Absent, tuple[float | Absent, ...]]:
+    """Cronbach's alpha (1951) and its 95% interval (Feldt, 1965), covariances over complete pairs.
 
-    Listwise alpha is this of the complete rows (Cronbach, 1951).
+    Listwise alpha is this of the complete rows.
     """
     if len(items) < 2:
-        return Absent("fewer than two answered rows")
-    covariance = items.cov().to_numpy()
-    total = float(covariance.sum())
-    if not total > 0:
-        return Absent("items that do not vary, or that nobody answered together")
-    k = covariance.shape[0]
-    return float(k / (k - 1) * (1 - covariance.trace() / total))
+        none = Absent("fewer than two answered rows")
+        return none, (none, none)
+    if not float(items.cov().to_numpy().sum()) > 0:
+        none = Absent("items that do not vary, or that nobody answered together")
+        return none, (none, none)
+    import pingouin
+
+    alpha, interval = pingouin.cronbach_alpha(items, nan_policy="pairwise")
+    return float(alpha), tuple(interval.tolist())
 
 
-def alpha_rows(study: Study) -> dict[str, Row]:
+def alpha_rows(study: StudyData) -> dict[str, Row]:
     """Alpha over all rounds and in each, listwise and pairwise, with the rows they rest on."""
     tables = {"all": study.rounds} | {
         name: study.rounds[study.rounds["adaptivity"] == name] for name in ADAPTIVITY
@@ -33,9 +35,12 @@ def alpha_rows(study: Study) -> dict[str, Row]:
 def _alpha_row(items: pd.DataFrame) -> Row:
     answered = items.dropna(how="all")
     complete = items.dropna()
+    listwise, interval = cronbach_alpha(complete)
     return {
         "rows_any": len(answered),
         "rows_complete": len(complete),
-        "listwise": cronbach_alpha(complete),
-        "pairwise": cronbach_alpha(answered),
+        "listwise": listwise,
+        "pairwise": cronbach_alpha(answered)[0],
+        "lower": interval[0],
+        "upper": interval[1],
     }

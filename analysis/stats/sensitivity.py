@@ -6,21 +6,22 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, Tree, attempt
-from analysis.sources.exclusions import Rules, Sample, left_by
 from analysis.sources.factors import COMPLEXITY, OUTCOMES
-from analysis.sources.frames import Floats, Study, both_rounds, paired
+from analysis.sources.frames import Floats, StudyData, both_rounds, paired
+from analysis.sources.samples import Sample, left_by
 from analysis.stats.anova import mixed_anova
 from analysis.stats.cellmodel import CELLS
 from analysis.stats.groups import grouped
 from analysis.stats.linear import added_columns
+from game.tables.exclusions import ExclusionRules
 
 FACTORS = ("memorise_minutes", "order", "complexity")
 
 
-def exclusion_rows(study: Study, rules: Rules) -> list[Row]:
+def exclusion_rows(study: StudyData, rules: ExclusionRules) -> list[Row]:
     """The ANOVA of every outcome among all randomised and under each rule.
 
-    `study` is everybody randomised. Groups that the source does not state are formed anew on each
+    `study` is everybody randomised. Groups that the source does not state are formed again on each
     sample.
     """
     samples = [left_by(study, None)]
@@ -39,7 +40,7 @@ def exclusion_rows(study: Study, rules: Rules) -> list[Row]:
     return rows
 
 
-def _sample_row(name: str, words: str, sample: Sample, everybody: Study) -> Row:
+def _sample_row(name: str, words: str, sample: Sample, everybody: StudyData) -> Row:
     kept, _ = grouped(sample.study)
     return {
         "rule": name,
@@ -51,7 +52,7 @@ def _sample_row(name: str, words: str, sample: Sample, everybody: Study) -> Row:
     }
 
 
-def by_design_cell(study: Study, excluded: tuple[str, ...]) -> list[Row]:
+def by_design_cell(study: StudyData, excluded: tuple[str, ...]) -> list[Row]:
     """Randomised and excluded in each combination of the allocated factors that are known."""
     people = study.participants
     factors = [name for name in FACTORS if study.has(name)]
@@ -74,7 +75,7 @@ def by_design_cell(study: Study, excluded: tuple[str, ...]) -> list[Row]:
     return rows
 
 
-def _short_anova(study: Study, outcome: str) -> Tree:
+def _short_anova(study: StudyData, outcome: str) -> Tree:
     def rows() -> list[Row]:
         return [
             {
@@ -91,7 +92,7 @@ def _short_anova(study: Study, outcome: str) -> Tree:
     return attempt(rows)
 
 
-def continuous_rows(study: Study, outcome: str) -> list[Row]:
+def continuous_rows(study: StudyData, outcome: str) -> list[Row]:
     """Type III tests with the quiz score itself, standardised, in place of the groups.
 
     Effects are taken at the mean score. Raises Refusal without scores, or where they do not vary.

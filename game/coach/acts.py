@@ -70,7 +70,7 @@ class InstructionIssued(CoachAct, frozen=True, tag="instruction_issued", kw_only
 
 
 class NoticeTakenDown(CoachAct, frozen=True, tag="notice_taken_down"):
-    """The notice before instruction `number` was heeded, and has left the bar."""
+    """The notice before instruction `number` was understood, and has left the bar."""
 
     number: int
 

@@ -132,26 +132,6 @@ class Belief:
         free = [cell for name, cell in places.items() if name not in self.rooms]
         return dict.fromkeys(free, 1 / len(free))
 
-    def room_at(self, room: str, place: Cell) -> float:
-        """P(`room` is at `place`)."""
-        return self.place_distribution(room).get(place, 0.0)
-
-    def victim_at(self, victim: str, cell: Cell) -> float:
-        """P(`victim` lies on `cell`)."""
-        if victim in self.victims:
-            return float(self.space.victims[victim] == cell)
-        if cell not in self.space.plan:
-            return 0.0
-        return (self.unseen >> self.space.plan.index(cell) & 1) / self.unseen.bit_count()
-
-    def goal_place(self, victim: str) -> float:
-        """P(the rescuer has the right place in mind for `victim`): of its cell where that is
-        known or it lies in no room, else of its room's place."""
-        room = self.space.rooms[victim]
-        if room is None or victim in self.victims:
-            return self.victim_at(victim, self.space.victims[victim])
-        return self.room_at(room, self.space.places[room])
-
 
 def belief_change(before: Belief, after: Belief, at_ms: int) -> BeliefChanged | None:
     """What the journal keeps of an update; None where rooms, victims and floor are as before."""

@@ -22,7 +22,7 @@ HEEDED_CELLS = 3
 """After so many cells the right way a notice has been understood."""
 
 READING_MS = 2_000
-"""How long a rescuer may take to heed a correction. At C1 each cell too far is a misstep: without
+"""How long a rescuer may take to act on a correction. At C1 each cell too far is a misstep: without
 it, a key held for a second would be disobedience five times over."""
 
 STRICT_LEVELS = frozenset({Level.C1, Level.C2})

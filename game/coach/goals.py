@@ -106,15 +106,15 @@ def instructed_prior(
     """Probability `mass` split evenly over `members`, the rest evenly over the other goals.
 
     `members` are the instructed goal alone, or all goals in its room. Where there are no other
-    goals the members share 1. Raises ValueError when a member is no goal, when there is no
-    member, or when `mass` is no probability.
+    goals the members share 1. Raises ValueError when a member is not a goal, when there is no
+    member, or when `mass` is not a probability.
     """
     names = list(goals)
     instructed = set(members)
     if not instructed:
         raise ValueError("an instructed prior needs at least one member")
     if strangers := instructed.difference(names):
-        raise ValueError(f"members that are not among the goals: {sorted(map(str, strangers))}")
+        raise ValueError(f"members that are not goals: {sorted(map(str, strangers))}")
     if not 0 <= mass <= 1:
         raise ValueError(f"mass must be between 0 and 1, not {mass}")
     others = len(names) - len(instructed)
@@ -166,7 +166,7 @@ def posterior(
 ) -> dict[Goal, float]:
     """Bayes' rule over the goals of `log_likelihoods` (-inf: the goal is impossible).
 
-    Raises ValueError when the prior lacks a goal or holds something that is no probability, and
+    Raises ValueError when the prior lacks a goal or holds something that is not a probability, and
     when no goal is left.
     """
     logs = {}

@@ -134,7 +134,7 @@ class HumanModel:
 
     def with_learned(self, learned: Learned) -> HumanModel:
         """M' = alpha' with the rest of M (paper 3.3): the components in `learned` are replaced and
-        no others. Raises TypeError for a value that is no such component."""
+        no others. Raises TypeError for a value that is not such a component."""
         for component, value in learned.items():
             expected = type(getattr(self, component.value))
             if not isinstance(value, expected):

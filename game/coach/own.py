@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import importlib.util
 import sys
-from difflib import get_close_matches
 from hashlib import sha256
 from pathlib import Path
 from typing import cast
 
 from game.coach.api import Briefing, Coach
-from game.errors import AnaError
+from game.errors import AnaError, did_you_mean
 
 SEPARATOR = ":"
 SURFACE = ("guidance", "next_evaluation_ms", "begin", "on_event", "evaluate")
@@ -26,7 +25,7 @@ def source_hash(source: str) -> str:
         raise AnaError(
             f"the coach's file cannot be read ({error.strerror})",
             place=path,
-            mend="Give it as FILE.py:CLASS.",
+            hint="Give it as FILE.py:CLASS.",
         ) from error
 
 
@@ -38,10 +37,10 @@ def own_coach(source: str, digest: str, briefing: Briefing) -> Coach:
     """
     path, _, name = source.rpartition(SEPARATOR)
     if source_hash(source) != digest:
-        raise AnaError("the coach's file is not the one that was played with", place=path)
+        raise AnaError("the coach's file has changed since the mission", place=path)
     spec = importlib.util.spec_from_file_location(f"own_coach_{digest}", path)
     if spec is None or spec.loader is None:
-        raise AnaError("this is not a Python file", place=path, mend="Its name must end in .py.")
+        raise AnaError("this is not a Python file", place=path, hint="Its name must end in .py.")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # dataclasses look their module up there
     try:
@@ -51,9 +50,8 @@ def own_coach(source: str, digest: str, briefing: Briefing) -> Coach:
         raise AnaError(f"the coach's file cannot be run: {error!r}", place=path) from error
     made = getattr(module, name, None)
     if not callable(made):
-        near = get_close_matches(name, vars(module), n=1)
-        mend = f"Did you mean {near[0]}?" if near else ""
-        raise AnaError(f"there is no class {name}", place=path, mend=mend)
+        hint = did_you_mean(name, vars(module))
+        raise AnaError(f"there is no class {name}", place=path, hint=hint)
     try:
         coach = made(briefing)
     except Exception as error:
@@ -61,8 +59,8 @@ def own_coach(source: str, digest: str, briefing: Briefing) -> Coach:
     missing = [part for part in SURFACE if not hasattr(coach, part)]
     if missing:
         raise AnaError(
-            f"{name} is no coach: it lacks {', '.join(missing)}",
+            f"{name} is not a coach: it lacks {', '.join(missing)}",
             place=path,
-            mend="docs/write-your-own-coach.md shows a whole one.",
+            hint="docs/write-your-own-coach.md shows a complete one.",
         )
     return cast(Coach, coach)

@@ -38,12 +38,7 @@ class CoachKind(NamedTuple):
 
 _KINDS = (
     CoachKind("ana", "adapts its level", "game.coach.kinds.ana:Ana", ("preset",), "posterior"),
-    CoachKind(
-        "static", "keeps one level", "game.coach.kinds.static:StaticCoach", ("level",), "level"
-    ),
-    CoachKind(
-        "pace", "keeps one level, learns the pace", "game.coach.kinds.pace:PaceCoach", ("level",),
-        "level",
-    ),
-)  # fmt: skip
+    CoachKind("static", "keeps it", "game.coach.kinds.static:StaticCoach", ("level",), "level"),
+    CoachKind("pace", "learns the pace", "game.coach.kinds.pace:PaceCoach", ("level",), "level"),
+)
 KINDS = MappingProxyType({kind.name: kind for kind in _KINDS})

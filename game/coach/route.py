@@ -1,6 +1,6 @@
 """The route: in which order to rescue the victims that still wait.
 
-A prize-collecting tour with deadlines, built by cheapest insertion and mended by a local search
+A prize-collecting tour with deadlines, built by cheapest insertion and improved by a local search
 (2-opt: Croes, 1958; or-opt: Or, 1976). It ends by iterations, never by time.
 """
 
@@ -99,7 +99,7 @@ class RoutePlanner:
     def along(
         self, order: Sequence[str], position: Cell, time_ms: int, *, ms_per_move: int
     ) -> Route:
-        """The route that keeps to `order` and passes by whoever would be too late."""
+        """The route that keeps to `order` and skips victims who could not be reached in time."""
         search = self._search(position, time_ms, order, ms_per_move)
         return search.route(search.numbered(order), order)
 
@@ -189,7 +189,7 @@ class _Search:
 
     def value(self, order: _Order) -> tuple[int, int]:
         """What a walk in this order is worth: the weight of those rescued in time, then how early
-        the last is. Whoever would be too late is passed by."""
+        the last is. Victims who could not be reached in time are skipped."""
         row, at_ms, worth = self.travel[-1], self.begin_ms, 0
         for i in order:
             done_ms = at_ms + row[i] + self.stay[i]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from typing import Any
 
 import msgspec
@@ -12,7 +11,7 @@ from game.coach.api import Briefing, Coach
 from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
 from game.coach.registry import KINDS, Choice
-from game.errors import AnaError
+from game.errors import AnaError, choose_from
 
 OWN = "own"
 DEFAULT_LEVEL = Level.C2
@@ -39,7 +38,7 @@ class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         if not own and self.kind not in KINDS:
             raise ValueError(f"coach field kind must be one of {', '.join((*KINDS, OWN))}")
         if (self.source is not None, self.sha256 is not None) != (own, own):
-            raise ValueError("coach fields source and sha256 go with the kind own, and only there")
+            raise ValueError("coach fields source and sha256 belong to the kind own alone")
         choices = () if own else KINDS[self.kind].choices
         for field in _GIVE:
             given = getattr(self, field) is not None
@@ -70,12 +69,12 @@ def parse_coach(kind: str, level: int | None = None, preset: str | None = None) 
             raise AnaError(
                 f"the coach {kind} has no {field} to choose",
                 place=f"--{field}",
-                mend=f"Leave --{field} out, or give --coach {with_it} with it.",
+                hint=f"Leave --{field} out, or give --coach {with_it} with it.",
             )
     if preset is not None and preset not in PRESETS:
         raise _unknown("preset", preset, tuple(PRESETS))
     if level is not None and level not in tuple(Level):
-        raise AnaError(f"there is no level {level}", place="--level", mend="Give 1, 2 or 3.")
+        raise AnaError(f"there is no level {level}", place="--level", hint="Give 1, 2 or 3.")
     return CoachSpec(
         kind,
         level=Level(level or DEFAULT_LEVEL) if "level" in choices else None,
@@ -98,7 +97,6 @@ def build_coach(spec: CoachSpec, briefing: Briefing) -> Coach:
 
 
 def _unknown(what: str, name: str, names: tuple[str, ...]) -> AnaError:
-    near = get_close_matches(name.casefold(), names, n=1)
-    choice = f"Did you mean {near[0]}? " if near else ""
-    mend = f"{choice}There are {', '.join(names)}."
-    return AnaError(f"there is no {what} '{name}'", place=f"--{what}", mend=mend)
+    return AnaError(
+        f"there is no {what} '{name}'", place=f"--{what}", hint=choose_from(name, names)
+    )

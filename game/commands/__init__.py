@@ -1,1 +1,1 @@
-"""The bodies of the `ana` subcommands: one module each, imported when it is run."""
+"""The `ana` subcommands: one module each, imported only when it runs."""

@@ -1,4 +1,4 @@
-"""`ana building`: look at a building, or check a file before a lab uses it."""
+"""`ana building`: look at a building, or check a file before using it in a study."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from game.world.fitness import shortcomings
 from game.world.labels import HALF_BLOCKS, SQUARES
 from game.world.picture import LEGEND, Ink, Row, joined, picture
 
-STATUS_UNSOUND = 2
+STATUS_PROBLEMS = 2
 
 _PAPER = os.terminal_size((400, 200))
-"""What is drawn on where there is no terminal."""
+"""The size to draw on if there is no terminal."""
 
 _COLOURS = {
     Ink.WALL: "bright_black",
@@ -29,19 +29,22 @@ _COLOURS = {
     Ink.START: "bright_green",
 }
 _seed_option = click.option(
-    "--seed", default=0, show_default=True, help="Furnishes a CSV grid that has no legend."
+    "--seed",
+    default=0,
+    show_default=True,
+    help="Names, victims and start for a CSV grid without a legend.",
 )
 
 
 @click.group(name="building")
-def group() -> None:
+def building_group() -> None:
     """Look at buildings and check them."""
 
 
-@group.command()
+@building_group.command("show", short_help="Draw a building.")
 @click.argument("building")
 @_seed_option
-def show(building: str, seed: int) -> None:
+def show_building(building: str, seed: int) -> None:
     """Draw BUILDING (a name or a file) with its room names, doors, victims and start."""
     loaded = load_building(building, seed)
     coloured = _wants_colour()
@@ -53,21 +56,21 @@ def show(building: str, seed: int) -> None:
         click.echo(f"  {room.name:<24}{_contents(loaded, room)}")
 
 
-@group.command()
+@building_group.command("check", short_help="Check a building file.")
 @click.argument("file")
 @_seed_option
-def check(file: str, seed: int) -> int:
-    """Say whether the building FILE is sound, or all that is wrong with it and how to mend it."""
+def check_building(file: str, seed: int) -> int:
+    """Check the building FILE: list every problem and how to fix it."""
     try:
         building = load_building(file, seed)
         problems = shortcomings(building, file, _top_line(file, building))
     except BuildingError as error:
         problems = error.problems
     for problem in problems:
-        click.echo(f"{problem.place}: {problem.message}. {problem.mend}.")
+        click.echo(f"{problem.place}: {problem.message}. {problem.hint}.")
     if problems:
-        return STATUS_UNSOUND
-    click.echo(f"{file}: sound ({counts(building)})")
+        return STATUS_PROBLEMS
+    click.echo(f"{file}: no problems ({counts(building)})")
     return 0
 
 
@@ -94,7 +97,7 @@ def _contents(building: Building, room: Room) -> str:
 
 
 def _top_line(file: str, building: Building) -> int:
-    """The line of the file on which the plan's first row stands."""
+    """The line of the file that holds the first row of the plan."""
     if file.lower().endswith(".csv"):
         return 1
     lines = [line.rstrip() for line in building.text.split("\n")]
@@ -102,9 +105,9 @@ def _top_line(file: str, building: Building) -> int:
 
 
 def _panels(building: Building) -> Iterator[Row]:
-    """The rows of the picture: in squares if the terminal has the space, else in half-blocks.
+    """The rows of the picture: in squares if they fit the terminal, else in half-blocks.
 
-    A picture wider than the terminal is cut into panels, each printed below the one to its left.
+    A picture wider than the terminal is cut into panels, printed one below the other.
     """
     plan = building.plan
     columns, lines = shutil.get_terminal_size() if sys.stdout.isatty() else _PAPER

@@ -1,4 +1,4 @@
-"""`ana completion`: the script that teaches a shell the words of `ana`."""
+"""`ana completion`: the script that lets a shell complete `ana` commands."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from click.shell_completion import get_completion_class
 from game.errors import AnaError
 
 SHELLS = ("bash", "zsh", "fish")
-VARIABLE = "_ANA_COMPLETE"
+COMPLETION_VARIABLE = "_ANA_COMPLETE"
 
 
 @click.command("completion")
 @click.argument("shell", type=click.Choice(SHELLS), required=False)
 @click.pass_context
-def command(ctx: click.Context, shell: str | None) -> None:
-    """Print the completion script of SHELL (default: the shell of $SHELL).
+def completion_command(ctx: click.Context, shell: str | None) -> None:
+    """Print the completion script for SHELL (default: the one in $SHELL).
 
     \b
     bash:  echo 'eval "$(ana completion bash)"' >> ~/.bashrc
@@ -30,8 +30,8 @@ def command(ctx: click.Context, shell: str | None) -> None:
         raise AnaError(
             f"there is no completion for the shell '{chosen}'",
             place="completion",
-            mend="Name one: ana completion bash, zsh or fish.",
+            hint="Give one: ana completion bash, zsh or fish.",
         )
     script = get_completion_class(chosen)
     assert script is not None
-    click.echo(script(ctx.find_root().command, {}, "ana", VARIABLE).source())
+    click.echo(script(ctx.find_root().command, {}, "ana", COMPLETION_VARIABLE).source())

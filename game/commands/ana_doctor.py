@@ -1,4 +1,4 @@
-"""`ana doctor`: can this computer and this terminal play, and what to do where they cannot."""
+"""`ana doctor`: can you play on this computer and terminal, and if not, what to do."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ _INDENT = " " * 18
 
 
 class Check(msgspec.Struct, frozen=True):
-    """One thing looked at. `fail` means the game cannot be played so; `warn`, that it can."""
+    """One thing that was checked. `fail`: it prevents playing; `warn`: it does not."""
 
     name: str
     status: Status
     found: str
-    mend: str = ""
+    hint: str = ""
 
 
 class Report(msgspec.Struct, frozen=True):
-    """All checks, in the order they were made."""
+    """All checks, in order."""
 
     playable: bool
     checks: tuple[Check, ...]
@@ -62,151 +62,114 @@ class Report(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class KeyReading:
-    """The bytes one key press sent, and the time between its first and its last piece."""
+    """The bytes that one key press sent, and the time from the first to the last of them."""
 
     data: bytes
     spread_ms: float
 
 
+def _check(name: str, ok: bool, found: str, hint: str, otherwise: Status = "fail") -> Check:
+    """The check of something that is `ok`, or has the status `otherwise` and needs the hint."""
+    return Check(name, "ok", found) if ok else Check(name, otherwise, found, hint)
+
+
 def check_python(version: tuple[int, int, int]) -> Check:
     """Python 3.11 or newer."""
-    found = ".".join(map(str, version))
-    if version >= (3, 11, 0):
-        return Check("python", "ok", found)
-    return Check("python", "fail", found, "Install Python 3.11 or newer and set ana up with it.")
+    hint = "Install Python 3.11 or newer and set up ana with it."
+    return _check("python", version >= (3, 11, 0), ".".join(map(str, version)), hint)
 
 
 def check_terminal(*, interactive: bool, term: str) -> Check:
-    """A terminal that can move its cursor on both ends of the game."""
+    """A terminal for input and output that can move its cursor."""
     if not interactive:
-        return Check(
-            "terminal",
-            "fail",
-            "not a terminal",
-            "Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
-        )
-    if term in ("", "dumb", "unknown"):
-        return Check(
-            "terminal",
-            "fail",
-            f"TERM is {term!r}",
-            "Set TERM to what your terminal is, such as TERM=xterm-256color.",
-        )
-    return Check("terminal", "ok", term)
+        hint = "Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`."
+        return Check("terminal", "fail", "not a terminal", hint)
+    known = term not in ("", "dumb", "unknown")
+    hint = "Set TERM to your terminal's type, for example TERM=xterm-256color."
+    return _check("terminal", known, term if known else f"TERM is {term!r}", hint)
 
 
 def check_colours(env: Mapping[str, str]) -> Check:
-    """How many colours the terminal says it has; every number of them can be played."""
+    """How many colours the terminal says it has; any number is playable."""
     found = colours(env)
     if found == "none":
-        return Check("colours", "ok", "none, as NO_COLOR asks; shapes tell everything apart")
-    if found != "16":
-        return Check("colours", "ok", found)
-    return Check(
-        "colours",
-        "warn",
-        found,
-        "It can be played, but looks better with more: put `term screen-256color` into .screenrc, "
-        "if this is GNU screen; else set TERM=xterm-256color, or COLORTERM=truecolor if the "
-        "terminal has it (ssh passes it on only by SendEnv).",
+        return Check("colours", "ok", "none (NO_COLOR is set); shapes tell everything apart")
+    hint = (
+        "Playable; more colours look better. Try TERM=xterm-256color, or COLORTERM=truecolor if "
+        "the terminal supports it (over ssh, with SendEnv COLORTERM). In GNU screen, put "
+        "`term screen-256color` into .screenrc."
     )
+    return _check("colours", found != "16", found, hint, "warn")
 
 
 def check_size(size: tuple[int, int] | None) -> Check:
-    """Columns and rows: `PLAY_SIZE` to play, `STUDY_SIZE` for a session of a study."""
+    """Columns and rows: `PLAY_SIZE` to play, `STUDY_SIZE` to take part in a study."""
     if size is None:
-        return Check("size", "warn", "unknown", "Run ana doctor in the terminal you will play in.")
-    found = f"{size[0]} x {size[1]}"
+        hint = "Run ana doctor in the terminal that you will play in."
+        return Check("size", "warn", "unknown", hint)
+    found, to_play, to_study = ("{} x {}".format(*each) for each in (size, PLAY_SIZE, STUDY_SIZE))
     if size[0] < PLAY_SIZE[0] or size[1] < PLAY_SIZE[1]:
-        return Check(
-            "size",
-            "fail",
-            found,
-            f"Enlarge the window, or make its letters smaller, to {PLAY_SIZE[0]} x {PLAY_SIZE[1]}.",
-        )
-    if size[0] < STUDY_SIZE[0] or size[1] < STUDY_SIZE[1]:
-        return Check(
-            "size",
-            "warn",
-            found,
-            f"Enough to play; for a study enlarge it to {STUDY_SIZE[0]} x {STUDY_SIZE[1]}.",
-        )
-    return Check("size", "ok", found)
+        hint = f"Make the window larger or reduce the font size, to {to_play}."
+        return Check("size", "fail", found, hint)
+    enough = size[0] >= STUDY_SIZE[0] and size[1] >= STUDY_SIZE[1]
+    hint = f"Large enough to play; a study needs {to_study}."
+    return _check("size", enough, found, hint, "warn")
 
 
 def check_encoding(encoding: str) -> Check:
-    """The map is drawn in characters that only UTF-8 carries."""
-    if encoding.lower().replace("-", "").replace("_", "") == "utf8":
-        return Check("encoding", "ok", "UTF-8")
-    return Check(
-        "encoding",
-        "fail",
-        encoding or "unknown",
-        "Use a UTF-8 locale, such as LANG=C.UTF-8, and leave PYTHONIOENCODING unset.",
-    )
+    """The map is drawn in characters that need UTF-8."""
+    ok = encoding.lower().replace("-", "").replace("_", "") == "utf8"
+    hint = "Use a UTF-8 locale, for example LANG=C.UTF-8, and unset PYTHONIOENCODING."
+    return _check("encoding", ok, "UTF-8" if ok else encoding or "unknown", hint)
 
 
 def check_keys(reading: KeyReading | None, escdelay_ms: float) -> Check:
     """An arrow key's bytes must arrive within `escdelay_ms` (None: no key was read)."""
     if reading is None:
-        return Check("keys", "warn", "no key came", "Run ana doctor again and press an arrow key.")
+        hint = "Run ana doctor again and press an arrow key."
+        return Check("keys", "warn", "no key was pressed", hint)
     name = _ARROWS.get(reading.data)
     if name is None:
-        return Check(
-            "keys",
-            "warn",
-            f"{reading.data!r} is no arrow key",
-            "Run ana doctor again and press one arrow key; if you did, set the terminal's keys to "
-            "those of xterm, or play with WASD or hjkl.",
+        hint = (
+            "Run ana doctor again and press one arrow key. If you did, set the terminal to send "
+            "xterm keys, or play with WASD or hjkl."
         )
-    spread = f"{reading.spread_ms:.0f} ms"
-    if reading.spread_ms > escdelay_ms:
-        return Check(
-            "keys",
-            "fail",
-            f"the {name} arrow came in pieces over {spread}",
-            f"The link is slow: set ESCDELAY={2 * round(reading.spread_ms)} (milliseconds).",
-        )
-    return Check("keys", "ok", f"{name} arrow, whole within {spread}")
+        return Check("keys", "warn", f"{reading.data!r} is not an arrow key", hint)
+    whole = reading.spread_ms <= escdelay_ms
+    how = "complete within" if whole else "in pieces over"
+    hint = f"The connection is slow: set ESCDELAY={2 * round(reading.spread_ms)} (milliseconds)."
+    return _check("keys", whole, f"{name} arrow, {how} {reading.spread_ms:.0f} ms", hint)
 
 
 def check_folder(folder: Path) -> Check:
-    """Journals can be written and made durable in `folder`, which is created if it is missing."""
+    """Journals can be written and synced in `folder`, which is created if it is missing."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder) as probe:
             probe.write(b"ana\n")
             os.fsync(probe.fileno())
     except OSError as error:
-        return Check(
-            "log folder",
-            "fail",
-            f"{folder}: {error.strerror}",
-            "Make the folder writable, or choose another: ana play --log DIR.",
-        )
+        hint = "Make the folder writable, or choose another one: ana play --log DIR."
+        return Check("log folder", "fail", f"{folder}: {error.strerror}", hint)
     return Check("log folder", "ok", str(folder))
 
 
 def check_space(free_bytes: int) -> Check:
-    """Room on the disk for many sessions."""
-    found = f"{free_bytes / 1e9:.1f} GB free"
-    if free_bytes >= FREE_BYTES:
-        return Check("disk", "ok", found)
-    mend = f"Free at least {FREE_BYTES // 1_000_000} MB, or choose another: ana play --log DIR."
-    return Check("disk", "fail", found, mend)
+    """Disk space for many sessions."""
+    hint = f"Free {FREE_BYTES // 1_000_000} MB, or use another folder: ana play --log DIR."
+    return _check("disk", free_bytes >= FREE_BYTES, f"{free_bytes / 1e9:.1f} GB free", hint)
 
 
 def check_clock(*, monotonic: bool, resolution_s: float) -> Check:
-    """Mission times are whole milliseconds of a clock that never goes back."""
+    """Mission times are whole milliseconds of a clock that never goes backwards."""
     found = f"resolution {resolution_s * 1e3:.6f} ms"
-    if monotonic and resolution_s <= CLOCK_RESOLUTION_S:
-        return Check("clock", "ok", found)
-    return Check("clock", "fail", found, "Play on a computer whose monotonic clock counts in ms.")
+    hint = "Play on a computer whose monotonic clock resolves milliseconds."
+    return _check("clock", monotonic and resolution_s <= CLOCK_RESOLUTION_S, found, hint)
 
 
 @contextmanager
 def _listening(descriptor: int) -> Iterator[None]:
-    """A terminal that hands keys on one by one and shows none of them."""
+    """A terminal that passes on each key at once and shows none of them."""
     before = termios.tcgetattr(descriptor)
     tty.setcbreak(descriptor)
     try:
@@ -216,9 +179,9 @@ def _listening(descriptor: int) -> Iterator[None]:
 
 
 def _read_key(descriptor: int, *, wait_s: float, pieces_s: float) -> KeyReading | None:
-    """One key press from a listening terminal, or None if none comes within `wait_s`.
+    """One key press from a listening terminal, or None if there is none within `wait_s`.
 
-    Bytes that may still become an arrow key are waited for, up to `pieces_s` after the first.
+    Waits up to `pieces_s` after the first byte for the rest of an arrow key.
     """
     if not select.select([descriptor], [], [], wait_s)[0]:
         return None
@@ -234,7 +197,7 @@ def _read_key(descriptor: int, *, wait_s: float, pieces_s: float) -> KeyReading 
 
 
 def examine(folder: Path, *, ask_key: bool) -> Report:
-    """Look at this process's own surroundings; `folder` is where journals would go."""
+    """Check the environment of this process; `folder` is where journals would go."""
     env = os.environ
     interactive = sys.stdin.isatty() and sys.stderr.isatty()
     clock = time.get_clock_info("monotonic")
@@ -284,19 +247,19 @@ def _lines(report: Report) -> Iterable[str]:
     for check in report.checks:
         mark = click.style(f"{check.status:<4}", fg=colour[check.status])
         yield f"{mark}  {check.name:<10}  {check.found}"
-        if check.mend:
-            yield click.wrap_text(check.mend, PLAY_SIZE[0], _INDENT + "-> ", _INDENT + "   ")
-    verdict = "This can be played" if report.playable else "This cannot be played yet"
+        if check.hint:
+            yield click.wrap_text(check.hint, PLAY_SIZE[0], _INDENT + "-> ", _INDENT + "   ")
+    verdict = "You can play here" if report.playable else "You cannot play here yet"
     yield f"\n{verdict} ({platform.system()} {platform.machine()})."
 
 
 @click.command("doctor")
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
-@click.option("--keys/--no-keys", default=True, help="Ask for an arrow key, in a terminal.")
-def command(*, as_json: bool, keys: bool) -> int:
-    """Check that this computer and terminal can play, and say what to do where they cannot.
+@click.option("--keys/--no-keys", default=True, help="Ask for an arrow key (in a terminal).")
+def doctor_command(*, as_json: bool, keys: bool) -> int:
+    """Check whether you can play on this computer and terminal, and if not, say what to do.
 
-    The exit status is 0 when the game can be played, else 1.
+    The exit status is 0 if you can play, else 1.
     """
     report = examine(places.sessions_folder(), ask_key=keys)
     if as_json:

@@ -1,11 +1,10 @@
-"""`ana play` and `ana replay`: straight into a screen."""
+"""`ana play` and `ana replay`."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import fields, replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,7 +13,7 @@ import msgspec
 
 from game.coach.presets import PRESETS
 from game.coach.spec import parse_coach
-from game.errors import AnaError
+from game.errors import AnaError, choose_from
 from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.world import load_building
@@ -27,29 +26,33 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
 def mission_options(command: _Command) -> _Command:
-    """The options that say which mission is played."""
+    """The options that define the mission."""
     options = (
         click.option(
             "--building",
             default=DEFAULT_BUILDING,
             show_default=True,
             metavar="NAME|PATH",
-            help="A building that comes with ana, or the path of your own.",
+            help="A building that comes with ana, or the path of your own file.",
         ),
         click.option(
             "--coach",
             default="ana",
             show_default=True,
-            help="ana adapts its level; static does not; FILE.py:CLASS is your own.",
+            help="ana adapts its level, static does not; FILE.py:CLASS loads your own.",
         ),
         click.option("--preset", help=f"How ana adapts: {', '.join(PRESETS)}."),
         click.option("--level", type=int, help="The level of a static coach: 1, 2 or 3."),
-        click.option("--seed", type=int, help="Repeats a mission exactly.  [default: a new one]"),
+        click.option(
+            "--seed",
+            type=int,
+            help="Seed for random choices; recorded in the journal.  [default: random]",
+        ),
         click.option(
             "--log",
             type=click.Path(path_type=Path, file_okay=False),
             metavar="DIR",
-            help="Where journals go.  [default: data/sessions]",
+            help="The folder for journals.  [default: data/sessions]",
         ),
         click.option("--minutes", type=float, help="How long the mission lasts.  [default: 4]"),
         click.option(
@@ -57,7 +60,7 @@ def mission_options(command: _Command) -> _Command:
             "assignments",
             multiple=True,
             metavar="KEY=VALUE",
-            help="Any setting of the mission, as moves_per_second=20; may be given again.",
+            help="A mission setting, for example moves_per_second=20; repeatable.",
         ),
     )
     for option in reversed(options):
@@ -75,7 +78,7 @@ def play(**given: Any) -> int:
 @click.command(name="replay")
 @click.argument("journal", type=click.Path(path_type=Path))
 def replay_journal(journal: Path) -> int:
-    """Replay the mission in JOURNAL, with what the coach believed at each moment."""
+    """Replay the mission in JOURNAL, showing what the coach believed at each moment."""
     return run_replay(journal)
 
 
@@ -89,7 +92,7 @@ def options_of(
     minutes: float | None,
     assignments: tuple[str, ...],
 ) -> PlayOptions:
-    """The mission that `mission_options` ask for. Raises AnaError, naming the option."""
+    """The mission defined by `mission_options`. Raises AnaError, naming the option."""
     settings = assigned(MissionSettings(), assignments)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
@@ -104,7 +107,7 @@ def options_of(
 
 
 def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:
-    """The settings with each KEY=VALUE set. Raises AnaError, naming what is wrong with one."""
+    """The settings with each KEY=VALUE set. Raises AnaError, naming the wrong assignment."""
     kinds = {field.name: type(getattr(settings, field.name)) for field in fields(settings)}
     for assignment in assignments:
         name, equals, value = assignment.partition("=")
@@ -112,9 +115,9 @@ def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSe
         if not equals:
             raise AnaError("this is not KEY=VALUE", place=place)
         if name not in kinds:
-            near = get_close_matches(name, kinds, n=1)
-            mend = f"Did you mean {near[0]}?" if near else f"There are {', '.join(kinds)}."
-            raise AnaError(f"there is no setting '{name}'", place=place, mend=mend)
+            raise AnaError(
+                f"there is no setting '{name}'", place=place, hint=choose_from(name, kinds)
+            )
         try:
             converted = msgspec.convert(value, kinds[name], strict=False)
         except msgspec.ValidationError as error:

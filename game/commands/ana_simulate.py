@@ -16,10 +16,13 @@ from game.simulation.workers import cores, here, on_cluster, on_cores
 
 @click.command(name="simulate")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
-@click.option("--participants", type=click.IntRange(1, 9999), required=True, metavar="N")
-@click.option("--seed", type=click.IntRange(0), required=True, help="Decides everything.")
-@click.option("--jobs", type=click.IntRange(1), help="Processes here.  [default: all cores]")
-@click.option("--scheduler", metavar="ADDRESS", help="A dask scheduler that does the work.")
+@click.option("--participants", type=click.IntRange(1, 9999), required=True, metavar="N",
+              help="How many people take part.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(0), required=True, help="Seed for everything.")
+@click.option(
+    "--jobs", type=click.IntRange(1), help="Processes on this machine.  [default: all cores]"
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Use the dask cluster of this scheduler.")
 @click.option(
     "--population",
     type=click.Choice(list(POPULATIONS)),
@@ -32,7 +35,7 @@ from game.simulation.workers import cores, here, on_cluster, on_cores
     type=click.Choice(list(PRESETS)),
     help=f"How the adaptive instructor of a new study adapts.  [default: {DEFAULT_PRESET}]",
 )
-def command(
+def simulate_command(
     folder: Path,
     participants: int,
     seed: int,
@@ -41,10 +44,10 @@ def command(
     population: str,
     preset: str | None,
 ) -> None:
-    """Let N simulated people take part in the study DIR, which is made where it is new.
+    """Let N simulated people take part in the study DIR, which is created if it does not exist.
 
-    Their journals have the form of everybody's and say that they are simulated; they are the same
-    for the same seed, whoever computes them. Run it again to go on after an interruption.
+    Their journals have the same form as real ones and are marked as simulated. The same seed gives
+    the same journals on any machine. After an interruption, run the command again to continue.
     """
     workers = _workers(jobs, scheduler)
     progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset)

@@ -1,58 +1,62 @@
-"""`ana study`: set a study up, let participants in, amend it, let somebody withdraw."""
+"""`ana study`: set up a study, let participants in and out, watch it, export its data."""
 
 from __future__ import annotations
 
+import getpass
+import os
 import signal
+import sys
+import syslog
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+import msgspec
 
-from game.lazy import LazyCommand, LazyGroup
+from game.errors import AnaError
+from game.journal.records import STUDY_MODES, StudyMode
+from game.lazy import LazyGroup
 
-_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+if TYPE_CHECKING:
+    from game.study.texts import Login
+
 FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
 
-
-@click.group(
-    name="study",
-    cls=LazyGroup,
-    commands=[
-        LazyCommand("status", "game.commands.lab:status", "Show who is where, and what is wrong."),
-        LazyCommand(
-            "export", "game.commands.lab:export", "Write a Psych-DS dataset with a codebook."
-        ),
-        LazyCommand("drop", "game.commands.lab:drop", "Record that somebody does not come back."),
-        LazyCommand("close", "game.commands.lab:close", "End recruiting."),
-        LazyCommand("sshd", "game.commands.lab:sshd", "Print the SSH server's configuration."),
-        LazyCommand("login", "game.commands.lab:login", "What that server runs for a participant."),
-    ],
-)
-def group() -> None:
-    """Run the experiment: a study lives in a folder."""
+_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+_PARTICIPANT = click.argument("participant", metavar="ID")
+_PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
+_STATUS_TROUBLE = 2
+_UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
 
 
-@group.command()
+@click.group(name="study", cls=LazyGroup)
+def study_group() -> None:
+    """Run the experiment. A study lives in a folder."""
+
+
+@study_group.command("new", short_help="Create a study folder.")
 @_FOLDER
-@click.option("--seed", type=int, help="Decides who is allocated what (default: drawn).")
+@click.option("--seed", type=int, help="Decides who is allocated what.  [default: random]")
 @click.option("--blocks", type=click.IntRange(1), default=5, show_default=True,
-              help="How many times 24 places the study has.")  # fmt: skip
-def new(folder: Path, seed: int | None, blocks: int) -> None:
-    """Make the study folder DIR, with settings and texts to look through before you begin."""
+              help="How many blocks of 24 places the study has.")  # fmt: skip
+def make_study(folder: Path, seed: int | None, blocks: int) -> None:
+    """Create the study folder DIR, with settings and texts to check before you begin."""
     from game.study.folder import ITEMS, SETTINGS, TEXTS, new_study
 
     new_study(folder, seed, blocks)
     click.echo(
-        f"{folder}: a new study. Look through {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
+        f"{folder}: new study created. Check {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
 
 
-@group.command()
+@study_group.command("run", short_help="Let a participant take part here.")
 @_FOLDER
 @click.option("--participant", required=True, metavar="ID", help="A pseudonym, such as P01.")
-@click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
-def run(folder: Path, participant: str, pilot: bool) -> int:
-    """Let participant ID take part at this terminal, or go on where they were."""
+@_PILOT
+def run_participant(folder: Path, participant: str, pilot: bool) -> int:
+    """Let participant ID take part at this terminal, or resume an earlier session."""
     for number in FROM_THE_KEYBOARD:
         signal.signal(number, signal.SIG_IGN)
     from game.screens.study.app import run_session
@@ -62,27 +66,204 @@ def run(folder: Path, participant: str, pilot: bool) -> int:
     return run_session(open_study(folder), identity)
 
 
-@group.command()
+@study_group.command("status", short_help="Show where everyone is, and problems.")
+@_FOLDER
+@click.option("--watch", is_flag=True, help="Keep the status on the screen; Q quits.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option(
+    "--unblind", is_flag=True, help="Also show counts by design cell; the ledger records it."
+)
+def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> int:
+    """Show where every participant of the study DIR is, and any problems.
+
+    Changes nothing, and does not reveal anyone's allocation.
+    """
+    from game.study.lab.status_text import page
+    from game.study.lab.study_status import StatusReader, breakdown
+    from game.tables.exclusions import read_rules
+
+    if watch:
+        if as_json or unblind:
+            raise click.UsageError("--watch cannot be combined with --json or --unblind.")
+        from game.screens.lab.status_screen import watch_status
+
+        return watch_status(folder)
+    now = StatusReader(folder).look()
+    shown = unblind or now.closed
+    why = "ana study status --unblind"
+    cells = breakdown(folder, read_rules().rule, why) if shown else ()
+    if as_json:
+        tree = msgspec.to_builtins(now) | ({"design_cells": cells} if shown else {})
+        click.echo(msgspec.json.format(msgspec.json.encode(tree), indent=2))
+    else:
+        click.echo("\n".join(page(now, cells)))
+    return 0
+
+
+@study_group.command("amend", short_help="Record a change of study.toml.")
 @_FOLDER
 @click.option("--why", required=True, metavar="TEXT", help="The reason, kept in the ledger.")
-def amend(folder: Path, why: str) -> None:
+def amend_settings(folder: Path, why: str) -> None:
     """Record that study.toml was changed after the first participant, and why."""
-    from game.study.folder import amend as amend_study
+    from game.study.folder import amend
 
-    amend_study(folder, why)
-    click.echo(f"{folder}: the change is recorded; sessions go on under the new settings")
+    amend(folder, why)
+    click.echo(f"{folder}: change recorded; sessions continue with the new settings")
 
 
-@group.command()
+@study_group.command("drop", short_help="Record a drop-out; data are kept.")
 @_FOLDER
-@click.argument("participant", metavar="ID")
-@click.option("--pilot", is_flag=True, help="A pilot session.")
-def withdraw(folder: Path, participant: str, pilot: bool) -> None:
-    """Delete all that was recorded of participant ID; the ledger keeps that they withdrew."""
+@_PARTICIPANT
+def drop_participant(folder: Path, participant: str) -> None:
+    """Record that participant ID dropped out; their data are kept."""
     from game.study.folder import identify, open_study
-    from game.study.withdraw import withdraw as withdraw_session
+    from game.study.lab.leaving import drop_out
 
-    identity = identify(participant, pilot=pilot)
-    deleted = withdraw_session(open_study(folder), identity)
-    told = "what was recorded is deleted" if deleted else "nothing had been recorded"
-    click.echo(f"{participant} has withdrawn; {told}")
+    study = open_study(folder)
+    drop_out(study, identify(participant))
+    refilled = study.settings.refill_dropouts
+    place = "will be given to someone else" if refilled else "stays empty"
+    click.echo(f"{participant} dropped out; the place {place} (refill_dropouts in study.toml)")
+
+
+@study_group.command("withdraw", short_help="Delete a participant's data.")
+@_FOLDER
+@_PARTICIPANT
+@click.option("--pilot", is_flag=True, help="Withdraw a pilot session.")
+def withdraw_participant(folder: Path, participant: str, pilot: bool) -> None:
+    """Delete everything recorded about participant ID.
+
+    The ledger keeps only that they withdrew.
+    """
+    from game.study.folder import identify, open_study
+    from game.study.lab.leaving import withdraw
+
+    deleted = withdraw(open_study(folder), identify(participant, pilot=pilot))
+    data = "their data are deleted" if deleted else "nothing had been recorded"
+    click.echo(f"{participant} has withdrawn; {data}")
+
+
+@study_group.command("close", short_help="End recruiting.")
+@_FOLDER
+def close_study(folder: Path) -> None:
+    """End recruiting in the study DIR: no more places are given out.
+
+    Anyone who has a place can finish. Everyone else is told that no place is left: newcomers when
+    they log in, people in consent or practice when practice ends. From now on the status may show
+    counts by design cell.
+    """
+    from game.study.folder import open_study
+
+    open_study(folder).ledger.close()
+    click.echo(
+        f"{folder}: closed. Anyone who has a place can finish. Everyone else is told that no place "
+        "is left: newcomers when they log in, people in consent or practice when practice ends"
+    )
+
+
+@study_group.command("export", short_help="Write a Psych-DS dataset.")
+@_FOLDER
+@click.argument("out", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--mode",
+    "modes",
+    type=click.Choice(STUDY_MODES),
+    multiple=True,
+    default=("live",),
+    show_default=True,
+    help="Which sessions to export; repeatable. Each mode has its own files.",
+)
+def write_dataset(folder: Path, out: Path, modes: tuple[StudyMode, ...]) -> None:
+    """Write the study DIR to the folder OUT as a Psych-DS dataset with a codebook."""
+    from game.study.lab.export import export_study
+
+    done = export_study(folder, out, modes)
+    for mode, sessions in done.sessions.items():
+        click.echo(f"{out}: {mode} sessions {sessions}, rounds {done.rounds[mode]}")
+    if done.unblinded:
+        click.echo(_UNBLINDED, err=True)
+
+
+@study_group.command("sshd", short_help="Print the SSH server's configuration.")
+@_FOLDER
+@click.option("--account", help="The participants' account.  [default: the owner of DIR]")
+@click.option("--port", type=click.IntRange(1, 65535), help="The port of a local test server.")
+@click.option("--keys", type=click.Path(path_type=Path), help="The folder of that server's keys.")
+def print_ssh_configuration(
+    folder: Path, account: str | None, port: int | None, keys: Path | None
+) -> None:
+    """Print the OpenSSH configuration that lets participants into the study DIR.
+
+    With --port and --keys: the configuration of a test server on this machine alone.
+    """
+    from game.study.folder import open_study
+    from game.study.lab.sshd import LoopbackServer, configuration, program
+
+    if (port is None) is not (keys is None):
+        raise click.UsageError("Give --port and --keys together.")
+    open_study(folder)
+    loopback = None if port is None or keys is None else LoopbackServer(port, keys)
+    user = account or (folder.owner() if loopback is None else getpass.getuser())
+    click.echo(configuration(folder, user, program(), loopback), nl=False)
+
+
+@study_group.command("login", short_help="What the SSH server runs for a participant.")
+@_FOLDER
+@_PILOT
+def let_in(folder: Path, *, pilot: bool) -> int:
+    """Let the person who logged in over SSH take part in the study DIR (run by the server).
+
+    The ID comes from the SSH key, or is asked for. If something goes wrong, the participant reads
+    it in the study's own words; the system log has the details and how to fix it.
+    """
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise AnaError(
+            "this login is for taking part in a study, and needs a terminal",
+            hint="Log in without a command: ssh ACCOUNT@HOST",
+        )
+    for number in (signal.SIGQUIT, signal.SIGTSTP):
+        signal.signal(number, signal.SIG_IGN)
+    from game.study.folder import identify, open_study
+    from game.study.lab.sshd import who_logs_in
+    from game.study.texts import filled, shipped_texts
+
+    texts = shipped_texts()
+    try:
+        study = open_study(folder)
+        texts = study.texts
+        participant = who_logs_in(os.environ, partial(_ask_for_id, texts.login))
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        from game.screens.study.app import run_session
+
+        return run_session(study, identify(participant, pilot=pilot))
+    except AnaError as error:
+        syslog.openlog("ana")
+        syslog.syslog(syslog.LOG_ERR, str(error))
+        page = filled(texts.words.trouble, problem=error.message)
+        click.echo(f"\n{page.title}\n\n{page.body.strip()}\n", err=True)
+        return _STATUS_TROUBLE
+
+
+def _ask_for_id(words: Login, refused: str) -> str:
+    if refused:
+        click.echo(f"\n  {words.wrong.replace('{id}', refused)}")
+    try:
+        return input(f"\n  {words.ask} ")
+    except EOFError:
+        raise click.Abort from None
+    except UnicodeDecodeError:
+        return "?"
+
+
+def record_analysis(folder: Path) -> str:
+    """Record that `ana analyse` reads live data, which unblinds an open study; returns what to
+    tell the user. A ledger that cannot be written stops nobody from analysing their copy."""
+    from game.study.folder import LEDGER
+    from game.study.ledger import Ledger, LedgerError
+
+    try:
+        return f"{_UNBLINDED}\n" if Ledger(folder / LEDGER).unblind("ana analyse") else ""
+    except LedgerError as error:
+        return (
+            f"If the study is still open, this unblinds it; that could not be recorded: {error}\n"
+        )

@@ -11,10 +11,10 @@ from game.session.verification import verify_files
 
 @click.command(name="verify")
 @click.argument("journals", nargs=-1, required=True, type=click.Path(path_type=Path))
-def command(journals: tuple[Path, ...]) -> int:
-    """Re-simulate JOURNALS from their actions and compare every derived record.
+def verify_command(journals: tuple[Path, ...]) -> int:
+    """Replay JOURNALS from their recorded actions and compare every derived record.
 
-    Exit status 0: all reproduce; 1: one does not, and the first difference is named; 2: a file is
-    not a journal.
+    Exit status 0: all match; 1: one does not, and the first difference is named; 2: a file is not
+    a journal.
     """
     return verify_files(journals, click.echo)

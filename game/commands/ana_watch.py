@@ -1,4 +1,4 @@
-"""`ana watch`: a simulated rescuer in the screen of a mission."""
+"""`ana watch`: watch a simulated rescuer play a mission."""
 
 from __future__ import annotations
 

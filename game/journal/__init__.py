@@ -1,1 +1,1 @@
-"""The journal: its records, how they are written and read, and what a whole journal tells."""
+"""The journal: its records, how they are written and read, and the history they add up to."""

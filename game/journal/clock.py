@@ -1,4 +1,4 @@
-"""Clocks: the machine's, a virtual one for simulations, and the one a mission is played by."""
+"""Clocks: the machine's, a virtual one for simulations, and the mission's."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import time
 from typing import NamedTuple, Protocol
 
 SIMULATED_EPOCH_MS = 946_684_800_000
-"""2000-01-01T00:00:00Z: when every simulated session begins."""
+"""2000-01-01T00:00:00Z, the start of every simulated session."""
 
 
 class Reading(NamedTuple):
-    """One look at a clock, in milliseconds.
+    """One reading of a clock, in milliseconds.
 
-    `steady_ms` never goes back and stands still while the machine sleeps; `asleep_ms` is how long
-    it has slept, where the system tells; `utc_ms` counts from 1970 and may be set by anyone.
+    `steady_ms` never goes back and stops while the machine sleeps; `asleep_ms` is how long it has
+    slept, if the system reports that; `utc_ms` counts from 1970 and can be changed at any time.
     """
 
     steady_ms: int
@@ -23,13 +23,13 @@ class Reading(NamedTuple):
 
 
 class Clock(Protocol):
-    """Where times come from."""
+    """A source of times."""
 
     def read(self) -> Reading: ...
 
 
 class SystemClock:
-    """This machine's clocks."""
+    """The clocks of this machine."""
 
     def read(self) -> Reading:
         steady_ns = time.monotonic_ns()
@@ -41,7 +41,7 @@ class SystemClock:
 
 
 class VirtualClock:
-    """A clock that stands where it is put; `now_ms` counts from the simulated epoch."""
+    """A clock that moves only when it is set; `now_ms` counts from the simulated epoch."""
 
     def __init__(self, now_ms: int = 0) -> None:
         self.now_ms = now_ms
@@ -51,7 +51,7 @@ class VirtualClock:
 
 
 class MissionClock:
-    """Mission milliseconds of a mission that begins now; it can be paused."""
+    """Mission time in milliseconds, from when it is created; it can be paused."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -68,17 +68,17 @@ class MissionClock:
         return self._clock.read().steady_ms - self._zero_ms
 
     def pause(self) -> None:
-        """Stand still. Has no effect on a clock that does."""
+        """Stop the clock; no effect if it is stopped already."""
         self._paused_at_ms = self.now_ms()
 
     def unpause(self) -> None:
-        """Run on from where it stood. Has no effect on a clock that runs."""
+        """Continue from where the clock stopped; no effect if it is running."""
         if self._paused_at_ms is not None:
             self._zero_ms = self._clock.read().steady_ms - self._paused_at_ms
             self._paused_at_ms = None
 
 
 def _since_boot_ns() -> int:
-    """Nanoseconds that count on while the machine sleeps, unlike those of `time.monotonic_ns`."""
+    """Nanoseconds since boot, which include sleep, unlike those of `time.monotonic_ns`."""
     clock = time.CLOCK_MONOTONIC if sys.platform == "darwin" else time.CLOCK_BOOTTIME
     return time.clock_gettime_ns(clock)

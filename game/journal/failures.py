@@ -1,4 +1,4 @@
-"""What can go wrong with a journal, said so that it can be mended."""
+"""What can go wrong with a journal, and how to fix it."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def cannot_write(path: Path, error: OSError) -> JournalError:
     """The JournalError for a failed operation on the journal at `path`."""
     if error.errno in _FULL:
         reason = "the disk is full"
-        mend = "Free some space and start again; all that was recorded until now is kept."
+        hint = "Free some space and start again; everything recorded so far is kept."
     elif error.errno in _FORBIDDEN:
-        reason = f"the journal may not be written here ({error.strerror})"
-        mend = "Make the folder writable, or choose another: --log DIR."
+        reason = f"there is no permission to write the journal here ({error.strerror})"
+        hint = "Make the folder writable, or choose another: --log DIR."
     else:
         reason = f"the journal cannot be written ({error.strerror})"
-        mend = "Check the disk and the folder, or choose another: --log DIR."
-    return JournalError(reason, place=str(path), mend=mend)
+        hint = "Check the disk and the folder, or choose another: --log DIR."
+    return JournalError(reason, place=str(path), hint=hint)
 
 
 def cannot_read(path: Path, error: OSError) -> JournalError:
@@ -34,5 +34,5 @@ def cannot_read(path: Path, error: OSError) -> JournalError:
     return JournalError(
         f"the journal cannot be read ({error.strerror})",
         place=str(path),
-        mend="Give the path of a journal.jsonl that you may read.",
+        hint="Give the path of a journal.jsonl that you have permission to read.",
     )

@@ -1,4 +1,4 @@
-"""The journals of a study folder, whoever asks for them."""
+"""Finding and reading the journals in a study folder."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ SESSIONS = "sessions"
 
 
 def journals(study: Path, mode: Mode) -> tuple[Path, ...]:
-    """The journals of all sessions of a mode, in the order of their participants.
+    """The journals of all sessions of a mode, ordered by participant.
 
-    A journal in which not one line was finished is none: its session never began.
+    A file without one complete line is left out: its session never began.
     """
     found = sorted((study / SESSIONS / mode).glob(f"*/{JOURNAL}"))
     return tuple(path for path in found if b"\n" in read_file(path))
 
 
 def transcripts(study: Path, mode: Mode) -> tuple[Transcript, ...]:
-    """All sessions of a mode, in the order of their participants.
+    """All sessions of a mode, ordered by participant.
 
-    Raises JournalError, naming the file, where one cannot be read.
+    Raises JournalError, naming the file, if one cannot be read.
     """
     return tuple(read_journal(path) for path in journals(study, mode))

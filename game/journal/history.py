@@ -1,12 +1,17 @@
-"""What happened in one session of a study, gathered from its journal record by record."""
+"""What a journal tells: the one fold over its records, which everybody else asks.
+
+A live session and the experimenter's screen feed a `History` record by record; `read_history` makes
+one of a whole journal.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple
 
-from game.journal.missions import RecordedMission, missions
-from game.journal.reader import Transcript
+from game.coach.acts import Disobeyed, InstructionIssued, Level, LevelChanged, Misstep
+from game.journal.reader import Entry, Transcript
 from game.journal.records import (
     Allocated,
     Consented,
@@ -15,6 +20,8 @@ from game.journal.records import (
     Exposed,
     FreeText,
     Interruption,
+    MissionAbandoned,
+    MissionStarted,
     Phase,
     PhaseEnded,
     PhaseStarted,
@@ -25,6 +32,7 @@ from game.journal.records import (
     QuizSubmitted,
     Record,
     Resumed,
+    RunRecord,
     SessionEnded,
     SessionStarted,
     StepEnding,
@@ -32,16 +40,113 @@ from game.journal.records import (
     TakenOver,
     Terminal,
     Versions,
+    Withdrawn,
 )
+from game.world.events import Acted, Expired, MissionEnded, Outcome, Rescued
+from game.world.geometry import Cell
 
-ROUNDS = (1, 2)
+PhaseEnding = Literal["completed", "timed_out", "interrupted", "void"]
 
-Place = tuple[Phase, int]
-"""A phase and its round."""
+
+class Step(NamedTuple):
+    """One phase of a session; `round` is 0 outside the rounds."""
+
+    phase: Phase
+    round: int = 0
+
+
+class Happening(NamedTuple):
+    """A mission event or coach record, and the line it stands in."""
+
+    line: int
+    record: RunRecord
+
+
+class LevelSpan(NamedTuple):
+    """A stretch of a mission at one level, in mission time; `comprehension` is what led to it."""
+
+    level: Level
+    from_ms: int
+    until_ms: int
+    comprehension: float | None
 
 
 @dataclass
-class Timed:
+class MissionHistory:
+    """One mission as its journal has it, as far as it has been noted.
+
+    `end` is `ended`, `abandoned` (its player left it at `until_ms`), `cut` (its process ended;
+    what fell due by then may be missing) or `dropped` (the session went on without either, which
+    no game does). `until_ms` is the mission time up to which it runs. `path` are the cells walked
+    to; `fates` when each victim was rescued or expired; `disobeyed` the kinds, in order; `texts`
+    how often the words on the bar changed; `level_changes` when which level came into force, and by
+    what comprehension.
+    """
+
+    line: int
+    step: Step
+    started: MissionStarted
+    happened: list[Happening] = field(default_factory=list)
+    end: Literal["ended", "abandoned", "cut", "dropped"] = "cut"
+    until_ms: int = 0
+    path: list[Cell] = field(default_factory=list)
+    fates: dict[str, tuple[Literal["rescued", "expired"], int]] = field(default_factory=dict)
+    actions: int = 0
+    missteps: int = 0
+    disobeyed: list[str] = field(default_factory=list)
+    texts: int = 0
+    level_changes: list[tuple[int, Level, float | None]] = field(default_factory=list)
+    _text: str = ""
+
+    def note(self, line: int, record: RunRecord) -> None:
+        """Take account of one record of the mission."""
+        self.happened.append(Happening(line, record))
+        self.until_ms = max(self.until_ms, record.at_ms)
+        match record:
+            case Acted():
+                self.actions += 1
+                if record.outcome is Outcome.MOVED:
+                    self.path.append(record.position)
+            case Rescued():
+                self.fates[record.victim] = "rescued", record.at_ms
+            case Expired():
+                self.fates[record.victim] = "expired", record.at_ms
+            case InstructionIssued():
+                if not self.level_changes:
+                    self.level_changes.append((record.at_ms, record.level, None))
+                self.texts += record.text != self._text
+                self._text = record.text
+            case LevelChanged():
+                self.level_changes.append((record.at_ms, record.after, record.comprehension))
+            case Misstep():
+                self.missteps += 1
+            case Disobeyed():
+                self.disobeyed.append(record.kind)
+            case MissionEnded():
+                self.end = "ended"
+            case _:
+                pass
+
+    @property
+    def records(self) -> Iterator[RunRecord]:
+        return (happening.record for happening in self.happened)
+
+    def levels(self, until_ms: int | None = None) -> Iterator[LevelSpan]:
+        """The stretches at one level, those of no length left out."""
+        ends = [at_ms for at_ms, _, _ in self.level_changes[1:]]
+        ends.append(self.until_ms if until_ms is None else until_ms)
+        for (from_ms, level, comprehension), end_ms in zip(self.level_changes, ends, strict=False):
+            if end_ms > from_ms:
+                yield LevelSpan(level, from_ms, end_ms, comprehension)
+
+    def drop(self) -> None:
+        """The session goes on without an end of the mission."""
+        if self.end == "cut":
+            self.end = "dropped"
+
+
+@dataclass
+class PhaseSpan:
     """One phase as it was gone through; `starts` counts how often it was begun or continued."""
 
     started_utc: str
@@ -56,117 +161,194 @@ class Timed:
 
 
 @dataclass
-class Story:
-    """The session so far. Of answers given more than once, the last."""
+class History:
+    """A session as far as it has been noted. Of answers given more than once, the last counts.
 
-    started: SessionStarted
-    versions: Versions
-    terminal: Terminal | None
-    started_utc: str
-    ended_utc: str
-    torn_bytes: int
+    `begun` is the step under way, with `exposure_ms` of it seen and `limit_ms` of it to be had;
+    `endings` are those of the steps behind. `over` tells that nothing follows. `left` is the
+    session's end where that is the last record. `strays` are mission events and coach records that
+    stand outside every mission; there should be none.
+    """
+
+    versions: Versions | None = None
+    terminal: Terminal | None = None
+    started_utc: str = ""
+    ended_utc: str = ""
+    step: Step = field(default_factory=lambda: Step("session"))
+    begun: Step | None = None
+    exposure_ms: int = 0
+    limit_ms: int | None = None
+    endings: dict[Step, PhaseEnding] = field(default_factory=dict)
     ending: Literal["finished", "declined", "turned_away", "unfinished"] = "unfinished"
-    last_step: Place = ("session", 0)
+    over: bool = False
+    left: SessionEnded | None = None
     consent_version: str | None = None
     allocated: Allocated | None = None
     practice: PracticeChecked | None = None
     preference: PreferenceGiven | None = None
-    segments: int = 1
+    torn_bytes: int = 0
+    resumed: int = 0
     interruptions: int = 0
     takeovers: int = 0
     amendments: int = 0
-    phases: dict[Place, Timed] = field(default_factory=dict)
-    items: dict[tuple[Phase, int, str], QuestionnaireAnswer] = field(default_factory=dict)
+    phases: dict[Step, PhaseSpan] = field(default_factory=dict)
+    items: dict[tuple[Step, str], QuestionnaireAnswer] = field(default_factory=dict)
     labels: dict[tuple[int, str], tuple[QuizAnswer, int]] = field(default_factory=dict)
     quizzes: dict[int, QuizSubmitted] = field(default_factory=dict)
     free_texts: list[FreeText] = field(default_factory=list)
-    missions: dict[int, RecordedMission] = field(default_factory=dict)
+    missions: list[MissionHistory] = field(default_factory=list)
+    strays: list[Entry] = field(default_factory=list)
+    _mission: MissionHistory | None = None
+
+    @property
+    def declined(self) -> bool:
+        return self.ending == "declined"
+
+    @property
+    def treated_in_practice(self) -> int:
+        """How many victims were rescued in practice."""
+        return sum(
+            fate == "rescued"
+            for mission in self.missions
+            if mission.step.phase == "practice"
+            for fate, _ in mission.fates.values()
+        )
 
     def is_void(self, round_: int) -> bool:
         return any(
-            number == round_ and span.ending == "void" for (_, number), span in self.phases.items()
+            step.round == round_ and span.ending == "void" for step, span in self.phases.items()
         )
 
-    def note(self, envelope: Envelope, record: Record) -> None:
-        """Take account of one record."""
-        place = envelope.phase, envelope.round
+    def names_given(self, round_: int) -> dict[str, str]:
+        """The names given to rooms in a round, by room."""
+        return {
+            room: answer.answer
+            for (number, room), (answer, _) in self.labels.items()
+            if number == round_ and answer.answer is not None
+        }
+
+    def note(self, envelope: Envelope, record: Record | None, line: int = 0) -> None:
+        """Take account of one record; None where only its frame is known."""
+        step = Step(envelope.phase, envelope.round)
+        self.started_utc = self.started_utc or envelope.utc
         self.ended_utc = envelope.utc
         if envelope.phase != "session":
-            self.last_step = place
+            self.step = step
+        self.left = record if isinstance(record, SessionEnded) else None
         match record:
+            case MissionStarted() | MissionAbandoned():
+                self._note_mission(step, record, line)
             case PhaseStarted() | PhaseEnded() | Exposed():
-                self._note_phase(place, envelope.utc, record)
+                self._note_phase(step, envelope.utc, record)
+            case QuestionnaireAnswer() | QuizAnswer() | QuizSubmitted() | FreeText():
+                self._note_answer(step, record)
+            case _ if isinstance(record, RunRecord):
+                if self._mission is None:
+                    self.strays.append(Entry(line, envelope, record))
+                else:
+                    self._mission.note(line, record)
+            case _:
+                self._note_frame(record)
+
+    def _note_answer(
+        self, step: Step, record: QuestionnaireAnswer | QuizAnswer | QuizSubmitted | FreeText
+    ) -> None:
+        match record:
             case QuestionnaireAnswer():
-                self.items[*place, record.item] = record
+                self.items[step, record.item] = record
             case QuizAnswer():
-                _, before = self.labels.get((envelope.round, record.room), (None, -1))
-                self.labels[envelope.round, record.room] = record, before + 1
+                _, before = self.labels.get((step.round, record.room), (None, -1))
+                self.labels[step.round, record.room] = record, before + 1
             case QuizSubmitted():
-                self.quizzes[envelope.round] = record
+                self.quizzes[step.round] = record
             case FreeText():
                 self.free_texts.append(record)
-            case Resumed():
-                self.segments += 1
-                self.versions, self.terminal = record.versions, record.terminal
-                self.torn_bytes += record.torn_bytes
-            case Interruption():
-                self.interruptions += 1
-            case TakenOver():
-                self.takeovers += 1
-            case StudyAmended():
-                self.amendments += 1
-            case _:
-                self._note_once(record)
 
-    def _note_once(self, record: Record) -> None:
+    def _note_once(self, record: Record | None) -> None:
         match record:
             case Consented():
                 self.consent_version = record.version
             case Declined():
                 self.consent_version = record.version
-                self.ending = "declined"
+                self.ending, self.over = "declined", True
             case PracticeChecked():
                 self.practice = record
             case Allocated():
                 self.allocated, self.ending = record, "unfinished"
             case PreferenceGiven():
                 self.preference = record
-            case SessionEnded(reason="finished" | "turned_away" as reason):
-                self.ending = reason
+            case Withdrawn():
+                self.over = True
             case _:
                 pass
 
-    def _note_phase(
-        self, place: Place, utc: str, record: PhaseStarted | PhaseEnded | Exposed
+    def _note_frame(self, record: Record | None) -> None:
+        match record:
+            case SessionStarted():
+                self.versions, self.terminal = record.versions, record.terminal
+            case Resumed():
+                self.resumed += 1
+                self.versions, self.terminal = record.versions, record.terminal
+                self.torn_bytes += record.torn_bytes
+                self._mission = None
+            case Interruption():
+                self.interruptions += 1
+            case TakenOver():
+                self.takeovers += 1
+            case StudyAmended():
+                self.amendments += 1
+            case SessionEnded(reason=reason):
+                if self._mission is not None:
+                    self._mission.drop()
+                self._mission = None
+                self.over |= reason == "finished"
+                if reason in ("finished", "turned_away"):
+                    self.ending = reason
+            case _:
+                self._note_once(record)
+
+    def _note_mission(
+        self, step: Step, record: MissionStarted | MissionAbandoned, line: int
     ) -> None:
-        span = self.phases.setdefault(place, Timed(utc))
+        if isinstance(record, MissionStarted):
+            if self._mission is not None:
+                self._mission.drop()
+            self._mission = MissionHistory(line, step, record)
+            self.missions.append(self._mission)
+        elif self._mission is not None:
+            self._mission.end, self._mission.until_ms = "abandoned", record.at_ms
+            self._mission = None
+
+    def _note_phase(
+        self, step: Step, utc: str, record: PhaseStarted | PhaseEnded | Exposed
+    ) -> None:
+        span = self.phases.setdefault(step, PhaseSpan(utc))
         match record:
             case PhaseStarted():
                 span.starts += 1
+                self.begun, self.limit_ms = step, record.left_ms
+                self.exposure_ms = self.exposure_ms if record.continued else 0
             case Exposed():
+                self.exposure_ms = record.exposure_ms
                 span.exposure_ms = max(span.exposure_ms, record.exposure_ms)
             case PhaseEnded():
+                self.begun, self.exposure_ms = None, 0
+                self.endings[step] = record.ending
                 span.ending, span.ended_utc = record.ending, utc
                 span.exposure_ms = record.exposure_ms
 
 
-def read_story(transcript: Transcript) -> Story:
-    """What happened in the session of a study."""
-    started, first = transcript.started, transcript.entries[0].envelope
-    story = Story(
-        started=started,
-        versions=started.versions,
-        terminal=started.terminal,
-        started_utc=first.utc,
-        ended_utc=first.utc,
-        torn_bytes=transcript.torn_bytes,
-    )
-    places = {}
+def history_of(records: Iterable[tuple[Envelope, Record]]) -> History:
+    """The history that these records make."""
+    history = History()
+    for envelope, record in records:
+        history.note(envelope, record)
+    return history
+
+
+def read_history(transcript: Transcript) -> History:
+    """What a whole journal tells."""
+    history = History(torn_bytes=transcript.torn_bytes)
     for entry in transcript.entries:
-        story.note(entry.envelope, entry.record)
-        places[entry.line] = entry.envelope
-    for mission in missions(transcript):
-        where = places[mission.line]
-        if where.phase == "mission" and where.round in ROUNDS:
-            story.missions[where.round] = mission
-    return story
+        history.note(entry.envelope, entry.record, entry.line)
+    return history

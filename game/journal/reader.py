@@ -1,8 +1,8 @@
-"""Reading journals: typed, strict, and forgiving only of what a crash can leave behind.
+"""Reading journals: typed and strict, tolerating only what a crash can leave behind.
 
-A line counts when it ends in a newline. What follows the last newline is ignored and its length
-reported. A line that is no JSON is accepted right before `resumed`, which follows a crash, and at
-the very end if it is the beginning of a line, which a crash while resuming leaves.
+A line counts if it ends in a newline. Anything after the last newline is ignored, and its length
+is reported. A line that is not JSON is accepted right before `resumed`, which follows a crash, and
+at the very end if it is the beginning of a line, which a crash while resuming leaves.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from game.journal.upgrades import UPGRADES, Upgrade, upgraded
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One record of a journal, with the number of its line, from 1."""
+    """One record of a journal, with its line number (from 1)."""
 
     line: int
     envelope: Envelope
@@ -31,7 +31,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Transcript:
-    """A journal as it was read. `torn_bytes` is the length of an unfinished end, normally 0."""
+    """A journal as read. `torn_bytes` is the length of an unfinished last line, normally 0."""
 
     source: str
     entries: tuple[Entry, ...]
@@ -46,7 +46,7 @@ class Transcript:
 
 @dataclass(frozen=True)
 class Difference:
-    """Where a journal first says something else than it should: a field, or the whole record."""
+    """The first place where a journal is not as it should be: a field, or a whole record."""
 
     line: int
     field: str
@@ -63,8 +63,8 @@ class Difference:
 def read_journal(path: Path) -> Transcript:
     """The journal at `path`, of this schema or an earlier one.
 
-    Raises JournalError, with the line, for what is no journal, was written by a newer game, or has
-    lost or gained lines.
+    Raises JournalError, with the line, if the file is not a journal, was written by a newer game,
+    or has lost or gained lines.
     """
     transcript = parse_journal(read_file(path), str(path))
     gap = first_discontinuity(transcript.entries)
@@ -72,7 +72,7 @@ def read_journal(path: Path) -> Transcript:
         raise JournalError(
             f"the journal was changed after it was written: {gap}",
             place=str(path),
-            mend="Take the original file.",
+            hint="Use the original file.",
         )
     return transcript
 
@@ -88,7 +88,7 @@ def read_file(path: Path) -> bytes:
 def parse_journal(
     data: bytes, source: str, upgrades: Mapping[int, Upgrade] = UPGRADES
 ) -> Transcript:
-    """The journal that `data` holds, each record by itself as it should be. Raises JournalError."""
+    """The journal in `data`, with each record checked on its own. Raises JournalError."""
     *lines, tail = data.split(b"\n")
     entries: list[Entry] = []
     broken: list[_Broken] = []
@@ -106,12 +106,12 @@ def parse_journal(
         if not cut.beginning:
             raise parser.refusal(cut)
     if not entries:
-        raise JournalError("this is not a journal: it holds no record", place=source, mend=_MEND)
+        raise JournalError("this is not a journal: it has no records", place=source, hint=_HINT)
     return Transcript(source, tuple(entries), sum(cut.length for cut in broken) + len(tail))
 
 
 def first_discontinuity(entries: Sequence[Entry]) -> Difference | None:
-    """Where `seq`, `segment`, `t_ms` or the opening record do not follow from the record before."""
+    """The first place where `seq`, `segment`, `t_ms` or the opening record breaks the sequence."""
     return next(_discontinuities(entries), None)
 
 
@@ -133,7 +133,7 @@ def _discontinuities(entries: Sequence[Entry]) -> Iterator[Difference]:
         seq, segment, t_ms = envelope.seq, envelope.segment, envelope.t_ms
 
 
-_MEND = "Give a journal.jsonl that ana has written."
+_HINT = "Give a journal.jsonl written by ana."
 
 
 class _Schema(msgspec.Struct):
@@ -141,7 +141,7 @@ class _Schema(msgspec.Struct):
 
 
 class _Head(msgspec.Struct):
-    """What every schema version keeps: a type, and in a record that opens a segment its schema."""
+    """What every schema version has: a type, and in a segment's opening record its schema."""
 
     type: str
     versions: _Schema | None = None
@@ -149,7 +149,7 @@ class _Head(msgspec.Struct):
 
 @dataclass(frozen=True)
 class _Broken:
-    """A line that is no JSON; `beginning` tells that it may have been cut short. Every record
+    """A line that is not JSON; `beginning` is true if it may have been cut short. Every record
     ends in a brace."""
 
     line: int
@@ -159,7 +159,7 @@ class _Broken:
 
 
 class _Decoders(NamedTuple):
-    """Of a line's first look, its envelope and its record."""
+    """Decoders for the type and schema of a line, its envelope and its record."""
 
     head: msgspec.json.Decoder[_Head]
     envelope: msgspec.json.Decoder[Envelope]
@@ -168,7 +168,7 @@ class _Decoders(NamedTuple):
 
 @cache
 def _decoders() -> _Decoders:
-    """Made when a journal is first read: a mission that is begun should not wait for them."""
+    """Made when a journal is first read, so that the start of a mission does not wait for them."""
     return _Decoders(
         msgspec.json.Decoder(_Head),
         msgspec.json.Decoder(Envelope),
@@ -177,7 +177,7 @@ def _decoders() -> _Decoders:
 
 
 class _Parser:
-    """Reads line after line; each segment may have been written under another schema."""
+    """Reads line after line; segments may differ in their schema."""
 
     def __init__(self, source: str, upgrades: Mapping[int, Upgrade]) -> None:
         self._source = source
@@ -191,7 +191,7 @@ class _Parser:
             if head.versions is not None:
                 self._schema = self._known(head.versions.schema, number)
             if self._schema is None:
-                raise self._error(number, "a journal begins with session_started", _MEND)
+                raise self._error(number, "a journal begins with session_started", _HINT)
             if self._schema == SCHEMA_VERSION:
                 decode = self._decode
                 return Entry(number, decode.envelope.decode(line), decode.record.decode(line))
@@ -200,28 +200,28 @@ class _Parser:
             return Entry(number, msgspec.convert(fields, Envelope), old)
         except msgspec.ValidationError as error:
             reason = f"this is not a record of schema {self._schema or SCHEMA_VERSION} ({error})"
-            raise self._error(number, reason, _MEND) from error
+            raise self._error(number, reason, _HINT) from error
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             beginning = not line.endswith(b"}") or "truncated" in str(error)
             return _Broken(number, len(line), beginning, str(error))
 
     def refusal(self, broken: _Broken) -> JournalError:
-        return self._error(broken.line, f"this is not a record ({broken.reason})", _MEND)
+        return self._error(broken.line, f"this is not a record ({broken.reason})", _HINT)
 
     def _known(self, schema: int, number: int) -> int:
         if schema > SCHEMA_VERSION:
             raise self._error(
                 number,
-                f"the journal has schema {schema}, and this game reads schemas up to "
+                f"the journal has schema {schema}, and this version reads schemas up to "
                 f"{SCHEMA_VERSION}",
-                "Install the newer game that wrote it.",
+                "Install the version of ana that wrote it.",
             )
         if any(version not in self._upgrades for version in range(schema, SCHEMA_VERSION)):
-            raise self._error(number, f"there never was a schema {schema}", _MEND)
+            raise self._error(number, f"there is no schema {schema}", _HINT)
         return schema
 
-    def _error(self, number: int, message: str, mend: str) -> JournalError:
-        return JournalError(message, place=f"{self._source}, line {number}", mend=mend)
+    def _error(self, number: int, message: str, hint: str) -> JournalError:
+        return JournalError(message, place=f"{self._source}, line {number}", hint=hint)
 
 
 def _shown(value: Any) -> str:

@@ -1,13 +1,13 @@
-"""Every record a journal can hold besides those of the mission and the coach.
+"""Every record that a journal can hold, apart from those of the mission and the coach.
 
 Mission events and coach records are written as `game.world.events` and `game.coach.acts` define
-them; here are the frame around them, the records of a session and those of a study, and the union
-of all. A line of a journal is one record with the fields of its `Envelope` flat beside its own.
+them. Here are the records of a session and of a study, and the union of all. A line of a journal
+is one record, with the fields of its `Envelope` beside its own.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 import msgspec
 
@@ -36,16 +36,21 @@ Phase = Literal[
     "preference",
     "debrief",
 ]
-"""Where in a session a record belongs; `session` is what lies outside all phases."""
+"""The part of a session that a record belongs to; `session` is outside all phases."""
 
-Mode = Literal["free_play", "live", "pilot", "simulated"]
-"""What a session is for; the last three are those of a study."""
+StudyMode = Literal["live", "pilot", "simulated"]
+Mode = Literal["free_play", StudyMode]
+"""What a session is for: play, or one of the modes of a study."""
+STUDY_MODES: tuple[StudyMode, ...] = get_args(StudyMode)
+
+ROUNDS = (1, 2)
+"""The rounds of a study's session."""
 
 StepEnding = Literal["completed", "timed_out", "interrupted", "void", "unfinished"]
 """How a phase ended, so far."""
 
 PERSON = "person"
-"""The rescuer of a session that no program plays."""
+"""The name of the rescuer when a person plays."""
 
 
 Utc = Annotated[str, msgspec.Meta(pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")]
@@ -53,7 +58,7 @@ Utc = Annotated[str, msgspec.Meta(pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{
 
 
 class Envelope(msgspec.Struct, frozen=True):
-    """What every record carries beside its own fields.
+    """What every record has besides its own fields.
 
     `seq` counts the records of a journal from 0. `t_ms` is steady time since the segment began; a
     segment is what one process wrote. `round` is 1 or 2 within the rounds of a study, else 0.
@@ -68,14 +73,14 @@ class Envelope(msgspec.Struct, frozen=True):
 
 
 class SessionRecord(msgspec.Struct, frozen=True, tag_field="type"):
-    """Something that is neither the mission's nor the coach's."""
+    """A record of neither the mission nor the coach."""
 
 
 # --- the session --------------------------------------------------------------------------------
 
 
 class Versions(msgspec.Struct, frozen=True):
-    """What wrote a segment. `textual` is empty where there was no screen."""
+    """The versions that wrote a segment. `textual` is empty if there was no screen."""
 
     game: str
     schema: int
@@ -93,7 +98,7 @@ class Terminal(msgspec.Struct, frozen=True):
 
 
 class StudyCopy(msgspec.Struct, frozen=True):
-    """The study.toml a session runs under, whole, and the SHA-256 of it in hexadecimal."""
+    """The whole study.toml that a session runs under, and its SHA-256 in hexadecimal."""
 
     text: str
     sha256: str
@@ -103,8 +108,8 @@ class SessionStarted(SessionRecord, frozen=True, tag="session_started", kw_only=
     """The first record of every journal.
 
     `settings` are the session's rules (each mission repeats its own). `rescuer` is `person`, or
-    the name of the simulated one; `simulated` tells the two apart. `participant` is a pseudonym,
-    empty in free play, where `study` is None.
+    the name of the simulated rescuer if `simulated` is true. `participant` is a pseudonym. In free
+    play it is empty and `study` is None.
     """
 
     session: str
@@ -120,8 +125,8 @@ class SessionStarted(SessionRecord, frozen=True, tag="session_started", kw_only=
 
 
 class Resumed(SessionRecord, frozen=True, tag="resumed", kw_only=True):
-    """The first record of a later segment. `torn_bytes` is the length of the line that the one
-    before left unfinished: 0 where it ended whole."""
+    """The first record of a later segment. `torn_bytes` is the length of the unfinished line at
+    the end of the segment before, 0 if it ended cleanly."""
 
     torn_bytes: int
     versions: Versions
@@ -129,7 +134,7 @@ class Resumed(SessionRecord, frozen=True, tag="resumed", kw_only=True):
 
 
 class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=True):
-    """Everything that determines a mission but the actions.
+    """Everything that determines a mission, except the actions.
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
     coach's preset as it was then, None for a coach without one.
@@ -146,15 +151,15 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):
-    """The mission was left at `at_ms` of its time, before its end; a leg of practice is left when
-    it is done."""
+    """The mission was left at `at_ms` of its time, before its end; a practice leg is left when it
+    is done."""
 
     at_ms: int
     reason: Literal["quit", "restarted", "interrupted", "leg_done"]
 
 
 class Paused(SessionRecord, frozen=True, tag="paused"):
-    """The mission's time stands still (free play)."""
+    """The mission's time is stopped (free play)."""
 
     at_ms: int
 
@@ -164,10 +169,10 @@ class Unpaused(SessionRecord, frozen=True, tag="unpaused"):
 
 
 class Interruption(SessionRecord, frozen=True, tag="interruption"):
-    """Something outside the session broke in.
+    """Something outside interrupted the session.
 
-    `jump_ms` is, for `suspended`, how long the machine slept, and for `clock_step`, by how much
-    the wall clock was set; steady time has neither. `signal` names the signal that came.
+    `jump_ms` is how long the machine slept (`suspended`) or by how much the wall clock was set
+    (`clock_step`); neither affects steady time. `signal` is the name of the signal received.
     """
 
     kind: Literal["signal", "hang_up", "suspended", "clock_step"]
@@ -183,7 +188,7 @@ class SessionEnded(SessionRecord, frozen=True, tag="session_ended"):
 
 
 class Preflighted(SessionRecord, frozen=True, tag="preflighted"):
-    """The terminal was looked at: what it has, and whether that is enough."""
+    """The terminal was checked: what it offers, and whether that is enough."""
 
     terminal: Terminal
     colours: Literal["none", "16", "256", "truecolor"]
@@ -192,7 +197,7 @@ class Preflighted(SessionRecord, frozen=True, tag="preflighted"):
 
 
 class Consented(SessionRecord, frozen=True, tag="consented"):
-    """Agreed to `text`, as shown, and said to be of age."""
+    """The participant agreed to `text`, as shown, and stated whether they are of age."""
 
     version: str
     text: str
@@ -211,7 +216,7 @@ class PracticeChecked(SessionRecord, frozen=True, tag="practice_checked"):
 
 
 class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True):
-    """The slot taken in the ledger and its design cell, spelled out for both rounds."""
+    """The slot taken in the ledger, and what its design cell means for both rounds."""
 
     slot: int
     refill: bool
@@ -222,15 +227,16 @@ class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True):
 
 
 class PhaseStarted(SessionRecord, frozen=True, tag="phase_started"):
-    """The envelope's phase began, or went on after a resume. `left_ms` is None if untimed."""
+    """The envelope's phase began, or continued after a resume. `left_ms` is the time left, None if
+    the phase is untimed."""
 
     left_ms: int | None
     continued: bool = False
 
 
 class Exposed(SessionRecord, frozen=True, tag="exposed"):
-    """How long the timed phase under way has been on the screen; written every second of it, so
-    that a phase that is cut off goes on with what was left."""
+    """How long the current timed phase has been on the screen; written every second, so that a
+    phase that is cut off continues with the time left."""
 
     exposure_ms: int
 
@@ -243,7 +249,7 @@ class PhaseEnded(SessionRecord, frozen=True, tag="phase_ended"):
 
 
 class QuizAnswer(SessionRecord, frozen=True, tag="quiz_answer"):
-    """A name was given to a room, or (`answer` None) taken back; the last one counts.
+    """A room was given a name, or (`answer` None) lost it again; the last answer counts.
 
     `response_ms` runs from when the room was shown.
     """
@@ -255,7 +261,7 @@ class QuizAnswer(SessionRecord, frozen=True, tag="quiz_answer"):
 
 
 class QuizSubmitted(SessionRecord, frozen=True, tag="quiz_submitted"):
-    """The labels as they stood at the end: `right` of `asked` rooms."""
+    """The result of the labels at the end: `right` of `asked` rooms."""
 
     right: int
     asked: int
@@ -263,7 +269,7 @@ class QuizSubmitted(SessionRecord, frozen=True, tag="quiz_submitted"):
 
 class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer", kw_only=True):
     """An item was answered. `text` and `anchors` are as shown; `place` is its place in the order
-    shown, from 0; `response_ms` runs from when it was shown; `changes` counts later thoughts."""
+    shown, from 0; `response_ms` runs from when it was shown; `changes` counts changes of answer."""
 
     item: str
     text: str
@@ -275,7 +281,7 @@ class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer"
 
 
 class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_only=True):
-    """Which instructor was preferred: that of `preferred_round`. `options` are as shown."""
+    """The preferred instructor: that of `preferred_round`. `options` are as shown."""
 
     item: str
     text: str
@@ -285,7 +291,7 @@ class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_onl
 
 
 class FreeText(SessionRecord, frozen=True, tag="free_text"):
-    """What a participant wrote in own words; may identify a person, so exports keep it apart."""
+    """Something in a participant's own words. It may identify them, so exports keep it apart."""
 
     item: str
     text: str
@@ -298,7 +304,7 @@ class Debriefed(SessionRecord, frozen=True, tag="debriefed"):
 
 
 class TakenOver(SessionRecord, frozen=True, tag="takeover"):
-    """This segment ended a process on a dead link, which had been silent for `silent_ms`."""
+    """This segment replaced a process on a dead connection, silent for `silent_ms`."""
 
     silent_ms: int
 
@@ -348,7 +354,7 @@ FrameRecord = (
 )
 
 RunRecord = MissionEvent | CoachRecord
-"""What happens in a mission with its coach."""
+"""Everything that happens in a mission with its coach."""
 
 Record = RunRecord | FrameRecord | StudyRecord
-"""Whatever a line can hold. A new kind of record is added to one of the four unions."""
+"""Everything that a line can hold. A new kind of record is added to one of the four unions."""

@@ -12,7 +12,7 @@ from game.journal.records import SCHEMA_VERSION, Envelope, Record
 from game.places import checkout
 
 SHIPPED = Path("data", "schema", "journal.schema.json")
-"""Where the schema lies, from the root of the checkout."""
+"""The path of the schema, from the root of the checkout."""
 
 
 def journal_schema() -> dict[str, Any]:
@@ -31,12 +31,12 @@ def journal_schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """The schema as the file that is shipped."""
+    """The text of the shipped schema file."""
     return msgspec.json.format(msgspec.json.encode(journal_schema()), indent=2).decode() + "\n"
 
 
 def main() -> int:
-    """Write the schema where it is shipped; elsewhere than in a checkout, print it."""
+    """Write the shipped schema file; outside a checkout, print it instead."""
     root = checkout()
     if root is None:
         sys.stdout.write(schema_text())

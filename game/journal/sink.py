@@ -1,4 +1,4 @@
-"""Where the lines of a journal go: a file, written through at once, or memory."""
+"""Where the lines of a journal go: to a file, without buffering, or into memory."""
 
 from __future__ import annotations
 
@@ -12,36 +12,36 @@ from typing import Protocol, Self
 from game.journal.failures import JournalError, cannot_write
 
 SYNC_AFTER_S = 0.5
-"""How long written lines may stay with the operating system before the disk is asked for them."""
+"""The delay between writing lines and asking the system to put them on disk."""
 
 
 class Sink(Protocol):
-    """Takes whole lines. Every method raises JournalError when the journal cannot be kept."""
+    """Takes whole lines. Every method raises JournalError if the journal cannot be written."""
 
     def write(self, lines: bytes) -> None:
-        """Hand `lines` over; they survive the end of this process when this returns."""
+        """Hand over `lines`; once this returns, they survive a crash of this process."""
         ...
 
     def flush_durably(self) -> None:
-        """Wait until everything written survives the end of the machine."""
+        """Wait until everything written would survive a power cut."""
         ...
 
     def close(self) -> None:
-        """Flush durably and let go."""
+        """Flush durably and release the journal."""
         ...
 
 
 class FileSink:
-    """A journal's file, appended to with one system call a batch and locked against others.
+    """A journal's file, locked against other processes; each batch is one system call.
 
-    A thread asks for fsync within a second of a write. After a failure nothing more is written:
-    every later call raises the same JournalError, since what a torn line is followed by is only
-    right as the start of a new segment.
+    A thread calls fsync within a second of a write. After a failure nothing more is written, and
+    every later call raises the same JournalError: after a torn line, only a new segment may
+    follow.
     """
 
     def __init__(self, path: Path, *, create: bool = True) -> None:
-        """Open the file and lock it; with `create`, a missing one is made (mode 0600, and its
-        missing folders 0700)."""
+        """Open and lock the file; with `create`, make it if it is missing (mode 0600, and missing
+        folders 0700)."""
         self.path = path
         self._failure: JournalError | None = None
         self._new_name = not path.exists()
@@ -63,7 +63,7 @@ class FileSink:
         self._syncer: threading.Thread | None = None
 
     def contents(self) -> bytes:
-        """All that the file holds."""
+        """Everything in the file."""
         try:
             size = os.fstat(self._descriptor).st_size
             return os.pread(self._descriptor, size, 0)
@@ -72,16 +72,16 @@ class FileSink:
 
     @classmethod
     def begin(cls, path: Path) -> Self:
-        """The sink of a journal that is begun now. A file in which not even one line was finished
-        is emptied; where there is a journal, JournalError is raised."""
+        """The sink of a new journal. A file without one complete line is emptied; if there is a
+        journal already, JournalError is raised."""
         sink = cls(path)
         try:
             contents = sink.contents()
             if b"\n" in contents:
                 raise JournalError(
-                    "there is a journal already",
+                    "there is already a journal",
                     place=str(path),
-                    mend="Choose another folder: --log DIR.",
+                    hint="Choose another folder: --log DIR.",
                 )
             if contents:
                 sink._empty()
@@ -158,7 +158,7 @@ class FileSink:
 
 
 class MemorySink:
-    """Lines kept in memory; where there is a `path`, closing writes them there all at once."""
+    """Lines kept in memory; if there is a `path`, closing writes them there all at once."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path
@@ -168,7 +168,7 @@ class MemorySink:
         self.data += lines
 
     def flush_durably(self) -> None:
-        """Nothing to wait for: a simulated session is whole or it is not there."""
+        """Nothing to wait for: a simulated session is written whole or not at all."""
 
     def close(self) -> None:
         if self.path is None:
@@ -186,20 +186,20 @@ def _locked_out(path: Path, error: OSError) -> JournalError:
         return JournalError(
             "another process is writing this journal",
             place=str(path),
-            mend="End the other one first, or wait until it has ended.",
+            hint="Close the other one, or wait until it has finished.",
         )
     return cannot_write(path, error)
 
 
 def make_folders(folder: Path) -> None:
-    """Make the folder and all that are missing above it, each for its owner alone (0700)."""
+    """Make the folder and any missing parents, readable by their owner only (0700)."""
     missing = [parent for parent in (folder, *folder.parents) if not parent.exists()]
     for parent in reversed(missing):
         parent.mkdir(mode=0o700, exist_ok=True)
 
 
 def sync_folder(folder: Path) -> None:
-    """Make the name of a new file durable, on file systems where a folder can be synced."""
+    """Make the name of a new file durable, if the file system can sync a folder."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         with suppress(OSError):

@@ -1,4 +1,4 @@
-"""What the coach thinks at a moment, told from its records."""
+"""What the coach thinks at a given moment, worked out from its records."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from game.world.observation import Guidance
 
 @dataclass(frozen=True)
 class Thoughts:
-    """The coach's state of mind as far as its records tell it.
+    """The coach's state of mind, as far as its records show it.
 
-    `guidance` is what stands on the bar. `evaluation` is the latest, which may be of an earlier
-    goal than `goal`. The rooms and victims are those whose place the coach believes the rescuer to
-    know (b^HR); `unseen_cells` counts the cells that, as it believes, the rescuer thinks any other
-    victim may be in.
+    `guidance` is the text on the bar. `evaluation` is the latest, possibly of a goal before `goal`.
+    The rooms and victims are those whose place the rescuer knows, as the coach believes (b^HR);
+    `unseen_cells` counts the cells where, in the same belief, the rescuer thinks any other victim
+    may be.
     """
 
     level: Level | None = None
@@ -47,7 +47,7 @@ class Thoughts:
     disobeyed: int = 0
 
     def after(self, record: RunRecord) -> Thoughts:
-        """The thoughts once `record` has been written; most mission events change nothing."""
+        """The thoughts after `record`; most mission events change nothing."""
         match record:
             case GoalSet():
                 return replace(self, goal=record.goal, room=record.room, route=record.route)

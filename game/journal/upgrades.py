@@ -1,7 +1,7 @@
-"""Journals of earlier schemas, read as if they were of today's.
+"""Reading journals of earlier schemas as if they had today's.
 
-To change the schema: count up `SCHEMA_VERSION`, add to `UPGRADES` the pure function that turns the
-fields of one record of the version before into those of the next, and leave a golden journal of
+To change the schema: increase `SCHEMA_VERSION`, add to `UPGRADES` a pure function that turns the
+fields of a record of the previous version into those of the new one, and keep a golden journal of
 the old version in `tests/data/journals/`.
 """
 
@@ -13,18 +13,18 @@ from typing import Any
 from game.journal.records import SCHEMA_VERSION
 
 Fields = dict[str, Any]
-"""One line of a journal as plain JSON values: the envelope's fields and the record's."""
+"""One line of a journal as plain JSON values: the fields of the envelope and of the record."""
 
 Upgrade = Callable[[Fields], Fields]
 
 UPGRADES: Mapping[int, Upgrade] = {}
-"""From schema version n to n + 1, for every version before the present one."""
+"""From schema version n to n + 1, for every earlier version."""
 
 
 def upgraded(fields: Fields, schema: int, upgrades: Mapping[int, Upgrade]) -> Fields:
-    """The fields of a record written under `schema` as the present schema has them.
+    """The fields of a record written under `schema`, as the present schema has them.
 
-    Raises KeyError when there is no way from `schema`.
+    Raises KeyError if there is no upgrade from `schema`.
     """
     for version in range(schema, SCHEMA_VERSION):
         fields = upgrades[version](fields)

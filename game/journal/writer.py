@@ -1,4 +1,4 @@
-"""The journal being written: one JSON object a line, one file a session."""
+"""Writing a journal: one JSON object per line, one file per session."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ from game.journal.records import (
 from game.journal.sink import FileSink, MemorySink, Sink
 from game.world.events import MissionEnded, Rescued
 
-JUMP_MS = 2_000
+CLOCK_JUMP_MS = 2_000
 """Wall clock and steady clock disagree by more than this only if the machine slept or the wall
-clock was set; smaller corrections are those of a time service."""
+clock was set; a time service makes smaller corrections."""
 
 LASTING = frozenset(
     {
@@ -64,7 +64,7 @@ LASTING = frozenset(
         Withdrawn,
     }
 )
-"""The records for which the disk is waited."""
+"""The records that must be on disk before the session continues."""
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _encoder = msgspec.json.Encoder()
@@ -73,15 +73,14 @@ _encoder = msgspec.json.Encoder()
 class Journal:
     """One segment of one journal. Every method but `enter` raises JournalError.
 
-    A record appended has reached the operating system when `append` or `extend` returns. Where
-    `awaits_disk` tells that something was appended that must survive the machine as well (an
-    answer, a rescue, the end of a phase), `wait_durable` comes before the next painting. When the
-    wall clock and the steady clock part company between two records, an `interruption` is put
-    between them.
+    When `append` or `extend` returns, the operating system has the record. If `awaits_disk` is
+    true, something was appended that must survive a power cut as well (an answer, a rescue, the
+    end of a phase): call `wait_durable` before the next paint. If the wall clock and the steady
+    clock disagree between two records, an `interruption` is put between them.
 
-    All that appends may be called by a signal's handler, at any moment: what comes in the middle
-    of a write is written right after it, by whoever is writing. What a sink refused stays first in
-    line, so everything that follows is refused as well.
+    A signal handler may append at any moment: a record that arrives during a write is written
+    right after it, by the code that is writing. A record that the sink refused stays first in the
+    queue, so everything after it is refused as well.
     """
 
     def __init__(self, sink: Sink, clock: Clock, *, seq: int = 0, segment: int = 0) -> None:
@@ -98,7 +97,7 @@ class Journal:
 
     @classmethod
     def create(cls, path: Path, started: SessionStarted, clock: Clock | None = None) -> Self:
-        """Begin the journal at `path`. A file in which not one line was finished is begun anew."""
+        """Begin the journal at `path`. A file without one complete line is overwritten."""
         sink = FileSink.begin(path)
         try:
             journal = cls(sink, clock or SystemClock())
@@ -117,9 +116,9 @@ class Journal:
 
     @classmethod
     def resume(cls, path: Path, terminal: Terminal | None, clock: Clock | None = None) -> Self:
-        """Begin a new segment of the journal at `path`, in the phase and round it broke off in.
+        """Begin a new segment of the journal at `path`, in the phase and round where it broke off.
 
-        A last record that lacks but its newline is given it, and so counts.
+        A last record that lacks only its newline gets one, and so counts.
         """
         sink = FileSink(path, create=False)
         try:
@@ -140,7 +139,7 @@ class Journal:
         return journal
 
     def enter(self, phase: Phase, round_: int = 0) -> None:
-        """From here on records belong to this phase and round."""
+        """Records belong to this phase and round from here on."""
         self.phase, self.round = phase, round_
 
     def append(self, record: Record) -> None:
@@ -156,7 +155,7 @@ class Journal:
         self.append(Interruption("hang_up" if signal == "SIGHUP" else "signal", signal=signal))
 
     def keep(self, sink: Sink) -> None:
-        """From here on write to `sink`, beginning with all that this journal has in memory."""
+        """Write to `sink` from here on, beginning with everything this journal has in memory."""
         with self._writing:
             assert isinstance(self.sink, MemorySink)
             sink.write(bytes(self.sink.data))
@@ -164,7 +163,7 @@ class Journal:
         self._write_waiting()
 
     def flush_durably(self) -> None:
-        """Wait for the disk: some milliseconds, so never on an event loop."""
+        """Wait for the disk. This takes milliseconds, so never call it on an event loop."""
         self.awaits_disk = False
         self.sink.flush_durably()
 
@@ -175,16 +174,16 @@ class Journal:
     def close(self) -> None:
         """Flush durably and end the segment. Closing twice does no harm.
 
-        What a handler appends meanwhile is not recorded any more.
+        What a signal handler appends in the meantime is no longer recorded.
         """
         with self._writing:
             self.sink.close()
 
     def _write_waiting(self) -> None:
-        """Write what waits, unless a write is under way: that one goes on until nothing waits.
+        """Write the queue, unless a write is in progress: that one continues until it is empty.
 
-        A handler may run between any two steps here, so what waits is looked at once more after
-        the lock is let go.
+        A handler may run between any two steps here, so the queue is checked once more after the
+        lock is released.
         """
         while self._waiting and self._writing.acquire(blocking=False):
             try:
@@ -222,18 +221,18 @@ def _second_text(seconds: int) -> str:
 
 
 def interruption(before: Reading, now: Reading) -> Interruption | None:
-    """What befell the machine between two readings: sleep, or a set wall clock."""
+    """What happened to the machine between two readings: it slept, or its clock was set."""
     slept_ms = now.asleep_ms - before.asleep_ms
-    if slept_ms > JUMP_MS:
+    if slept_ms > CLOCK_JUMP_MS:
         return Interruption("suspended", jump_ms=slept_ms)
     set_ms = (now.utc_ms - before.utc_ms) - (now.steady_ms - before.steady_ms) - slept_ms
-    if abs(set_ms) > JUMP_MS:
+    if abs(set_ms) > CLOCK_JUMP_MS:
         return Interruption("clock_step", jump_ms=set_ms)
     return None
 
 
 def versions(terminal: Terminal | None) -> Versions:
-    """What writes this segment; Textual has a part in it only where there is a terminal."""
+    """The versions that write this segment; Textual's only if there is a terminal."""
     return Versions(
         game=__version__,
         schema=SCHEMA_VERSION,
@@ -245,8 +244,8 @@ def versions(terminal: Terminal | None) -> Versions:
 def _installed(package: str) -> str:
     """The version of an installed package, from the name of its `dist-info` folder.
 
-    The standard library's importlib.metadata tells it too, but takes longer to import than the
-    whole game has for its first picture.
+    The standard library's importlib.metadata could tell, but takes longer to import than the whole
+    game may take for its first picture.
     """
     spec = find_spec(package)
     if spec is None or spec.origin is None:

@@ -1,12 +1,11 @@
-"""Simulated rescuers by name, for whoever wants to watch one."""
+"""Simulated rescuers by name, for watching."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from difflib import get_close_matches
 
-from game.errors import AnaError
+from game.errors import AnaError, choose_from
 from game.rescuers.driver import Rescuer
 from game.rescuers.literal import LiteralReader
 from game.rescuers.person import POPULATIONS, BoundedPerson, drawn, memorised
@@ -48,14 +47,14 @@ def _person(population: str, memorise_ms: int) -> Maker:
 RESCUERS = {
     character.name: character
     for character in (
-        Character(LITERAL, "follows every word, knows every room", _literal),
+        Character(LITERAL, "follows every word and knows every room", _literal),
         Character("person", "a person who saw the map for 3 minutes", _person("default", LONG_MS)),
         Character(
             "newcomer", "a person who saw the map for 1 minute", _person("default", SHORT_MS)
         ),
         Character("stranger", "a person who never saw the map", _person("default", 0)),
-        Character("hasty", "a person who is quick and errs", _person("hasty", LONG_MS)),
-        Character("careful", "a person who is slow and seldom errs", _person("careful", LONG_MS)),
+        Character("hasty", "a quick person who makes mistakes", _person("hasty", LONG_MS)),
+        Character("careful", "a slow person who makes few mistakes", _person("careful", LONG_MS)),
     )
 }
 
@@ -64,10 +63,6 @@ def character(name: str) -> Character:
     """The character of this name. Raises AnaError, with the nearest right name."""
     if name in RESCUERS:
         return RESCUERS[name]
-    near = get_close_matches(name.casefold(), RESCUERS, n=1)
-    choice = f"Did you mean {near[0]}? " if near else ""
     raise AnaError(
-        f"there is no rescuer '{name}'",
-        place="--rescuer",
-        mend=f"{choice}There are {', '.join(RESCUERS)}.",
+        f"there is no rescuer '{name}'", place="--rescuer", hint=choose_from(name, RESCUERS)
     )

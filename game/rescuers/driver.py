@@ -17,7 +17,7 @@ class Wait(NamedTuple):
 
 
 class Rescuer(Protocol):
-    """Whoever decides from an Observation, as a person does at the screen."""
+    """Somebody who decides from an Observation, as a person does at the screen."""
 
     def decide(self, observation: Observation) -> Action | Wait | None:
         """The next action, or how long to wait; None to wait until something happens."""
@@ -34,7 +34,7 @@ def drive(
     """Play a run that has begun until it ends or is `done`.
 
     The rescuer acts once a pace at most, and waits where it wants to. `passing` is told each new
-    time before anything happens at it, for whoever keeps a clock.
+    time before anything happens at it, for callers that keep a clock.
     """
     pace_ms = run.mission.settings.pace_ms
     now_ms = run.mission.time_ms

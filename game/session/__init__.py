@@ -1,1 +1,1 @@
-"""A mission and a coach played together, replayed, and verified."""
+"""Playing a mission with a coach, replaying it and verifying it."""

@@ -29,7 +29,7 @@ from game.world.mission import Mission
 from game.world.settings import MissionSettings
 
 CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
-"""How a coach comes from its description; to play with a coach of one's own, pass another."""
+"""Builds a coach from its description; pass another to play with a coach of your own."""
 
 
 def start_free_play(
@@ -46,7 +46,7 @@ def start_free_play(
 ) -> tuple[MissionRun, Journal]:
     """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
 
-    Raises JournalError when the journal cannot be written.
+    Raises JournalError if the journal cannot be written.
     """
     clock = clock or SystemClock()
     began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
@@ -67,8 +67,9 @@ def start_in_memory(
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
 ) -> tuple[MissionRun, Journal]:
-    """The same for a simulated rescuer; the journal is written to `path` (None: nowhere) when it
-    is closed. `clock` is the virtual clock the rescuer is driven by; without one, it stands at 0.
+    """The same for a simulated rescuer; closing the journal writes it to `path` (None: nowhere).
+
+    `clock` is the virtual clock that drives the rescuer; without one, it stays at 0.
     """
     opening = _free_play("simulated", settings, seed, None, rescuer)
     journal = Journal.buffered(path, opening, clock or VirtualClock())
@@ -86,7 +87,7 @@ def begin_mission(
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
-    Outside a study the records belong to the phase `mission`; within, to that of the journal.
+    Outside a study the records belong to the phase `mission`; in a study, to the journal's phase.
     """
     if journal.phase == "session":
         journal.enter("mission")
@@ -99,7 +100,7 @@ def begin_mission(
 def mission_started(
     building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
 ) -> MissionStarted:
-    """The record of what determines a mission."""
+    """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
         building=building.name,
         building_text=building.text,
@@ -113,7 +114,7 @@ def mission_started(
 
 
 def preset_of(spec: CoachSpec) -> Preset | None:
-    """The preset of the coach, whole; None for a coach without one."""
+    """The coach's whole preset; None for a coach without one."""
     return None if spec.preset is None else preset(spec.preset)
 
 
@@ -126,7 +127,7 @@ def assemble(
     *,
     build: CoachBuilder = build_coach,
 ) -> MissionRun:
-    """A mission with its coach, not yet begun; `record` gets all that happens."""
+    """A mission with its coach, not yet begun; `record` receives everything that happens."""
     coach = build(spec, Briefing(building, settings, seed))
     return MissionRun(Mission(building, settings), coach, record)
 
@@ -137,7 +138,7 @@ def leave_mission(
     now_ms: int,
     reason: Literal["quit", "leg_done"] = "quit",
 ) -> None:
-    """Let the mission run on to `now_ms`, and abandon it there if it has not ended."""
+    """Run the mission to `now_ms`, and abandon it there if it has not ended."""
     run.advance(now_ms)
     if not run.ended:
         journal.append(MissionAbandoned(now_ms, reason))

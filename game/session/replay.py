@@ -1,8 +1,8 @@
 """Replay: a recorded mission at any moment, forwards and backwards.
 
-The mission is played again from its recorded actions; what the coach did is taken from its
-records. So a journal can be replayed without the coach that made it; verification shows that the
-coach would do the same again.
+The mission is played again from its recorded actions; what the coach did comes from its records.
+So a journal can be replayed without the coach that made it; verification shows that the coach
+would do the same again.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from game.coach.acts import LevelChanged
 from game.journal.failures import JournalError
-from game.journal.missions import Happening, missions
+from game.journal.history import Happening, MissionHistory, read_history
 from game.journal.reader import Transcript
 from game.journal.records import RunRecord
 from game.journal.thoughts import Thoughts
@@ -27,7 +27,7 @@ CHECKPOINT_MS = 10_000
 
 
 class _Moment(NamedTuple):
-    """The state of a replay after `done` records, at some time."""
+    """The state of a replay after `done` records."""
 
     done: int
     mission: Mission
@@ -35,21 +35,22 @@ class _Moment(NamedTuple):
 
 
 class Replay:
-    """One mission of a journal, standing at `time_ms` of its time: 0 at first.
+    """One mission of a journal, seen at `time_ms` of its time: 0 at first.
 
-    Raises JournalError where the journal has no such mission (`number` counts from 0), and `seek`
-    where an action in it cannot be carried out.
+    Raises JournalError if the journal has no such mission (`number` counts from 0); so does `seek`
+    if an action in it cannot be carried out.
     """
 
     def __init__(self, transcript: Transcript, number: int = 0) -> None:
-        recorded = missions(transcript)
+        recorded = read_history(transcript).missions
         if not 0 <= number < len(recorded):
             raise JournalError(
                 f"there is no mission {number + 1}: the journal holds {len(recorded)}",
                 place=transcript.source,
-                mend="Give a journal in which a mission was begun.",
+                hint="Give a journal that has a mission.",
             )
         self.transcript = transcript
+        self.number, self.count = number, len(recorded)
         self.recorded = recorded[number]
         self.started = self.recorded.started
         self.building = parse_building(self.started.building_text, self.started.building)
@@ -64,13 +65,21 @@ class Replay:
 
     @property
     def thoughts(self) -> Thoughts:
-        """What the coach thinks now."""
+        """What the coach thinks at this moment."""
         return self._now.thoughts
 
     @property
     def records(self) -> tuple[RunRecord, ...]:
-        """All that has happened up to now, this moment included."""
+        """Everything that has happened up to and including this moment."""
         return self._records[: self._now.done]
+
+    def so_far(self) -> MissionHistory:
+        """The mission as far as it has gone now."""
+        recorded = self.recorded
+        past = MissionHistory(recorded.line, recorded.step, self.started)
+        for record in self.records:
+            past.note(recorded.line, record)
+        return past
 
     @property
     def highlights(self) -> tuple[Rescued | Expired | LevelChanged, ...]:
@@ -83,7 +92,7 @@ class Replay:
         return self._now.mission.observation(self._now.thoughts.guidance)
 
     def seek(self, to_ms: int) -> None:
-        """Go to `to_ms`, or the nearer end of the recording where that lies outside it."""
+        """Go to `to_ms`, or to the nearer end if that lies outside the recording."""
         to_ms = min(max(0, to_ms), self.duration_ms)
         if to_ms < self.time_ms:
             self._go_back(to_ms)
@@ -112,12 +121,12 @@ class Replay:
             raise JournalError(
                 f"this action cannot be carried out ({error})",
                 place=f"{self.transcript.source}, line {line}",
-                mend="Take the original file; `ana verify` says where it differs.",
+                hint="Use the original file; `ana verify` says where this one differs.",
             ) from error
         self._now = _Moment(end, mission, thoughts)
 
     def _copy(self, moment: _Moment) -> _Moment:
-        """An independent copy; what never changes is shared."""
+        """An independent copy, except for the parts that never change."""
         building = self.building
         shared = {id(building): building, id(building.plan): building.plan}
         return moment._replace(mission=deepcopy(moment.mission, shared))

@@ -1,7 +1,7 @@
-"""A mission and a coach played together: pacing, the order of things, and what is recorded.
+"""Playing a mission with a coach: pacing, the order of events, and what is recorded.
 
-Times are mission milliseconds, given by the caller: a screen passes its clock, a simulation a
-virtual one, a replay the logged times.
+Times are mission milliseconds and come from the caller: a screen passes its clock, a simulation a
+virtual one, a replay the recorded times.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class _Pending(NamedTuple):
 class MissionRun:
     """One mission with its coach.
 
-    `record` receives everything that happens, in order, once for each call that makes something
-    happen: it must have handed it to the operating system when it returns, because the caller
-    paints only after that. What it raises, the call raises.
+    `record` receives everything that happens, in order, once per call that makes something happen.
+    It must have handed it to the operating system before it returns, because the caller paints
+    only after that. Whatever it raises, the call raises.
     """
 
     def __init__(self, mission: Mission, coach: Coach, record: Recorder) -> None:
@@ -47,7 +47,7 @@ class MissionRun:
 
     @property
     def next_due_ms(self) -> int | None:
-        """When something happens next without a key; None once the mission has ended."""
+        """When something happens next without a key press; None once the mission has ended."""
         if self.ended:
             return None
         due_ms = self._next_due().at_ms
@@ -62,8 +62,8 @@ class MissionRun:
         return self.mission.observation(self.coach.guidance)
 
     def press(self, action: Action, now_ms: int) -> None:
-        """A key was pressed. Inside the pace a move waits for its moment and replaces one that
-        still waits; triage acts at once."""
+        """A key was pressed. A move that comes before the pace allows waits for its time and
+        replaces any move still waiting; triage acts at once."""
         with self._recording():
             self._advance(now_ms)
             self._pending = None
@@ -73,12 +73,12 @@ class MissionRun:
                 self._pending = _Pending(action, self._next_move_ms, now_ms)
 
     def advance(self, now_ms: int) -> None:
-        """Let everything happen that is due by `now_ms`, each at its own time."""
+        """Make everything happen that is due by `now_ms`, each at its own time."""
         with self._recording():
             self._advance(now_ms)
 
     def act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
-        """Carry out an action at its recorded time, as a replay does: pacing is already in it."""
+        """Carry out an action at its recorded time, as a replay does: it was paced already."""
         with self._recording():
             self._advance(at_ms)
             self._act(action, at_ms, pressed_ms)

@@ -1,4 +1,4 @@
-"""Verification: a journal's missions played again from their actions must give the same records."""
+"""Verification: playing a journal's missions again from their actions gives the same records."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import msgspec
 from game.coach.spec import build_coach
 from game.errors import AnaError
 from game.journal.failures import JournalError
-from game.journal.missions import RecordedMission, missions, strays
+from game.journal.history import MissionHistory, read_history
 from game.journal.reader import (
     Difference,
     Entry,
@@ -30,15 +30,15 @@ from game.world.events import Acted
 from game.world.reading import parse_building
 
 TOLERANCE = 1e-9
-"""Reals agree within this, absolutely or relatively; everything else agrees exactly."""
+"""Real numbers may differ by this much, absolutely or relatively; all else must be equal."""
 
 NOTHING = "nothing"
-"""Stands in a `Difference` for a record that is not there."""
+"""Stands for a missing record in a `Difference`."""
 
 
 @dataclass(frozen=True)
 class Verification:
-    """The outcome: how much was recomputed, and where the journal first differs, if it does."""
+    """The outcome: how much was recomputed, and the first difference, if there is one."""
 
     source: str
     missions: int
@@ -58,10 +58,11 @@ def verify(path: Path, *, build: CoachBuilder = build_coach) -> Verification:
 
 def verify_transcript(transcript: Transcript, *, build: CoachBuilder = build_coach) -> Verification:
     """Verify a journal whose lines were each read, but not yet held against each other."""
-    played = missions(transcript)
+    history = read_history(transcript)
+    played = history.missions
     differences = (
         first_discontinuity(transcript.entries),
-        next((_stray(entry) for entry in strays(transcript)), None),
+        next((_stray(entry) for entry in history.strays), None),
         next((found for mission in played if (found := _first(mission, build))), None),
     )
     return Verification(
@@ -79,9 +80,9 @@ def verify_files(
     *,
     build: CoachBuilder = build_coach,
 ) -> int:
-    """Verify one journal after the other, saying of each how it went, one line each.
+    """Verify the journals one by one, and report on each in one line.
 
-    Returns 0 when all reproduce, 1 when one differs, 2 when one is not a journal.
+    Returns 0 if all reproduce, 1 if one differs, 2 if one is not a journal.
     """
     status = 0
     for path in paths:
@@ -101,7 +102,7 @@ def _told(outcome: Verification) -> str:
     if outcome.difference is not None:
         return f"{outcome.source}: differs: {outcome.difference}"
     number = f"{outcome.missions} mission{'' if outcome.missions == 1 else 's'}"
-    torn = f" (ignored an unfinished end of {outcome.torn_bytes} bytes)"
+    torn = f" (an unfinished last line of {outcome.torn_bytes} bytes is ignored)"
     return (
         f"{outcome.source}: {number}, {outcome.records} records reproduced"
         f"{torn if outcome.torn_bytes else ''}"
@@ -116,11 +117,11 @@ def _stray(entry: Entry) -> Difference:
     return Difference(entry.line, "type", type_of(entry.record), NOTHING)
 
 
-def _first(mission: RecordedMission, build: CoachBuilder) -> Difference | None:
+def _first(mission: MissionHistory, build: CoachBuilder) -> Difference | None:
     return _unplayable(mission) or _replayed(mission, build)
 
 
-def _unplayable(mission: RecordedMission) -> Difference | None:
+def _unplayable(mission: MissionHistory) -> Difference | None:
     """What in `mission_started` rules out that playing it again gives the same."""
     started = mission.started
     sha256_of_text = sha256(started.building_text.encode()).hexdigest()
@@ -135,7 +136,7 @@ def _unplayable(mission: RecordedMission) -> Difference | None:
     return None
 
 
-def _replayed(mission: RecordedMission, build: CoachBuilder) -> Difference | None:
+def _replayed(mission: MissionHistory, build: CoachBuilder) -> Difference | None:
     started = mission.started
     again: list[RunRecord] = []
     try:
@@ -149,7 +150,7 @@ def _replayed(mission: RecordedMission, build: CoachBuilder) -> Difference | Non
     return _first_of(refused, _compared(mission, again))
 
 
-def _play(run: MissionRun, mission: RecordedMission) -> Difference | None:
+def _play(run: MissionRun, mission: MissionHistory) -> Difference | None:
     """Play the mission's actions; the first that cannot be carried out, if there is one."""
     run.begin()
     line = mission.line
@@ -164,7 +165,7 @@ def _play(run: MissionRun, mission: RecordedMission) -> Difference | None:
     return None
 
 
-def _compared(mission: RecordedMission, again: Sequence[RunRecord]) -> Difference | None:
+def _compared(mission: MissionHistory, again: Sequence[RunRecord]) -> Difference | None:
     """The first recorded record that differs from the one recomputed in its place."""
     line = mission.line
     for place, (line, recorded) in enumerate(mission.happened):
@@ -186,13 +187,13 @@ def _difference(line: int, recorded: RunRecord, expected: RunRecord | None) -> D
 
 
 def _differing(line: int, field: str, recorded: Any, expected: Any) -> Iterator[Difference]:
-    """Every field, by its path, in which two records or values differ."""
+    """Every field, named by its path, in which two records or values differ."""
     for path, old, new in _leaves(msgspec.to_builtins(recorded), msgspec.to_builtins(expected)):
         yield Difference(line, ".".join((field, *path)), old, new)
 
 
 def _leaves(old: Any, new: Any) -> Iterator[tuple[tuple[str, ...], Any, Any]]:
-    """The places where two values of plain JSON differ, with their paths."""
+    """The places where two plain JSON values differ, with their paths."""
     if isinstance(old, float) and isinstance(new, float):
         if not isclose(old, new, rel_tol=TOLERANCE, abs_tol=TOLERANCE):
             yield (), old, new

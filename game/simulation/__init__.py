@@ -1,1 +1,1 @@
-"""Whole studies with simulated people, as journals of the very same form (design 10)."""
+"""Whole studies with simulated people, in journals of the same form as real ones."""

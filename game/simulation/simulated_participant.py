@@ -1,4 +1,4 @@
-"""A simulated person who takes part in a study: they read, memorise, label, play and answer."""
+"""A simulated participant of a study, who reads, memorises, labels, plays and answers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Literal
 
 from game.journal.clock import VirtualClock
-from game.journal.records import Preflighted, Terminal
+from game.journal.records import ROUNDS, Preflighted, Terminal
 from game.rescuers.driver import drive
 from game.rescuers.person import BoundedPerson, MapMemory, Population, drawn, memorised
 from game.rescuers.person.experience import Experience
@@ -14,26 +14,25 @@ from game.rescuers.person.memory import nothing_memorised
 from game.rescuers.person.quiz import labels
 from game.rescuers.person.randomness import stream
 from game.rescuers.person.responses import Respondent
-from game.study.protocol import ROUNDS
-from game.study.study_session import StudySession
+from game.study.protocol.study_session import StudySession
+from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize
-from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page
 from game.world.building import Building
 
 TICK_MS = 1_000
 LOOK_MS = 30_000
-"""How long the map of the practice building is looked at."""
+"""How long they look at the map of the practice building."""
 ANSWER_MS = 2_500
-"""To read an item and decide on an answer."""
+"""The time to read an item and decide on an answer."""
 UNDERSTOOD = 0.9
-"""Chance of a right answer to each question of the practice check."""
+"""The probability of a right answer to each question of the practice check."""
 SECOND_ROUND_WEARINESS = 0.5
 
 
 class SimulatedParticipant:
-    """Moves `clock` on by the time everything takes. One person of `population`, decided by the
-    session's seed."""
+    """One person of `population`, drawn by the session's seed, who advances `clock` by the time
+    that everything takes."""
 
     def __init__(self, session: StudySession, clock: VirtualClock, population: Population) -> None:
         self._session = session
@@ -153,7 +152,7 @@ class SimulatedParticipant:
         return self._maps.get(building.name) or nothing_memorised(building)
 
     def _asked(self, page: Page, sheet: Sheet) -> Iterator[Asked]:
-        """What is still to be answered, each after the time that takes."""
+        """The questions still to be answered, each after the time it takes to answer."""
         self._read(page)
         sheet.begin()
         for asked in sheet.missing:
@@ -168,7 +167,7 @@ class SimulatedParticipant:
         self._clock.now_ms += ms
 
     def _pass_within(self, exposure: Exposure, ms: int) -> None:
-        """Let time go by in a timed phase, second by second, and no longer than it lasts."""
+        """Let time pass in a timed phase, second by second, but no longer than it lasts."""
         until_ms = self._clock.now_ms + min(ms, exposure.left_ms)
         while self._clock.now_ms < until_ms:
             self._pass(min(TICK_MS, until_ms - self._clock.now_ms))

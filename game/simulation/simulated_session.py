@@ -1,4 +1,4 @@
-"""One simulated person's whole session, led by the same conductor as anybody's."""
+"""The whole session of one simulated person, conducted like a real participant's."""
 
 from __future__ import annotations
 
@@ -9,36 +9,37 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from game.journal.clock import SIMULATED_EPOCH_MS, VirtualClock
+from game.journal.records import StudyMode
 from game.journal.sink import MemorySink
 from game.rescuers.person import Population
 from game.simulation.simulated_participant import SimulatedParticipant
-from game.study.conduct import conduct
 from game.study.folder import LEDGER, Identity, Study
-from game.study.ledger import Ending, Ledger, LedgerEntry, Mode, SlotTaken
-from game.study.study_session import open_session
+from game.study.ledger import Ledger, LedgerEntry, SessionEnding, SlotTaken
+from game.study.protocol.conduct import conduct
+from game.study.protocol.study_session import open_session
 
-NOWHERE = Path(os.devnull)
-"""The folder of a session that is handed back and not written; there is nothing in it."""
+_NO_FOLDER = Path(os.devnull)
+"""The folder of a session that is returned instead of written; there is nothing in it."""
 
 
 def simulated_now() -> str:
-    """The time of everything in a simulated study's ledger."""
+    """The time stamp of every entry in a simulated study's ledger."""
     return datetime.fromtimestamp(SIMULATED_EPOCH_MS / 1000, UTC).isoformat(timespec="milliseconds")
 
 
 def rescuer_name(population: Population) -> str:
-    """What journals call the people of a population."""
+    """The name that journals give to the people of a population."""
     return f"simulated {population.name}"
 
 
 def play_session(study: Study, taken: SlotTaken, population: Population) -> bytes:
-    """The journal of one simulated participant, who holds the slot `taken`; nothing is written.
+    """The journal of one simulated participant with the slot `taken`; nothing is written.
 
-    The same for the same study, slot and population, wherever it is computed.
+    It is the same for the same study, slot and population, wherever it is computed.
     """
     clock, sink = VirtualClock(), MemorySink()
     held = HeldStudy(
-        folder=NOWHERE,
+        folder=_NO_FOLDER,
         settings=study.settings,
         copy=study.copy,
         texts=study.texts,
@@ -60,8 +61,8 @@ def play_session(study: Study, taken: SlotTaken, population: Population) -> byte
 
 
 class _HeldSlot(Ledger):
-    """A ledger of which one slot is known, and in which nothing is written: whoever handed the
-    work out keeps the real one."""
+    """A ledger that knows one slot and writes nothing: the process that hands out the work keeps
+    the real one."""
 
     def __init__(self, path: Path, taken: SlotTaken) -> None:
         super().__init__(path, simulated_now)
@@ -73,16 +74,16 @@ class _HeldSlot(Ledger):
     def agree(self, settings_hash: str) -> None:
         pass
 
-    def allocate(self, participant: str, mode: Mode, *, refill: bool = False) -> SlotTaken:
+    def allocate(self, participant: str, mode: StudyMode, *, refill: bool = False) -> SlotTaken:
         return self._taken
 
-    def end_session(self, participant: str, mode: Mode, ending: Ending) -> None:
+    def end_session(self, participant: str, mode: StudyMode, ending: SessionEnding) -> None:
         pass
 
 
 @dataclass(frozen=True, kw_only=True)
 class HeldStudy(Study):
-    """A study as one simulated participant sees it, whose slot is `taken` already."""
+    """A study as seen by one simulated participant, who already has the slot `taken`."""
 
     taken: SlotTaken
 

@@ -1,4 +1,4 @@
-"""A study of simulated people in a folder: made, continued, and the same for a seed."""
+"""Simulating a study in a folder: begun or continued, and the same for the same seed."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def simulate(
     workers: Workers,
     preset: str | None = None,
 ) -> Iterator[int]:
-    """Simulate the first `participants` of a study in `folder`; it is made where it is new.
+    """Simulate the first `participants` of a study in `folder`, which is made if it is new.
 
-    Yields how many are finished, at first and after each. Those who were before are left as they
-    are, so that a simulation that was broken off goes on. Slots are taken in the order of the
+    Yields how many are finished, first and after each participant. Finished sessions stay as they
+    are, so an interrupted simulation continues where it stopped. Slots are taken in the order of
     participants before any work is handed out. Raises StudyError for a folder of another seed,
     preset or kind of people, AnaError's other relatives for what cannot be read or written.
     """
@@ -55,7 +55,7 @@ def simulate(
 
 
 def names(participants: int) -> Iterator[str]:
-    """What simulated participants are called: S0001, S0002, ..."""
+    """The names of simulated participants: S0001, S0002, ..."""
     return (f"S{number:04}" for number in range(1, participants + 1))
 
 
@@ -73,13 +73,13 @@ def _opened(folder: Path, seed: int, participants: int, preset: str | None) -> S
             raise StudyError(
                 f"the study in this folder has the {name} {there}",
                 place=str(folder),
-                mend=f"Give --{name} {there}, or another folder",
+                hint=f"Give --{name} {there}, or another folder",
             )
     return study
 
 
 def _same_people(study: Study, population: Population) -> None:
-    """Whoever is there already must be of the same population."""
+    """Check that anyone in the study already comes from the same population."""
     home = study.home(Identity("simulated", "any")).parent
     for path in sorted(home.glob(f"*/{JOURNAL}"))[:1]:
         there = read_journal(path).started.rescuer
@@ -87,7 +87,7 @@ def _same_people(study: Study, population: Population) -> None:
             raise StudyError(
                 f"the people in this study are '{there}'",
                 place=str(study.folder),
-                mend="Give their population with --population, or another folder",
+                hint="Give their population with --population, or another folder",
             )
 
 
@@ -101,7 +101,7 @@ def _end(ledger: Ledger, taken: SlotTaken) -> None:
 
 
 def _write(path: Path, journal: bytes) -> None:
-    """The whole journal or none of it. Raises AnaError."""
+    """Write the whole journal or nothing. Raises AnaError."""
     part = path.with_name(path.name + _PART)
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -115,5 +115,5 @@ def _write(path: Path, journal: bytes) -> None:
         raise AnaError(
             f"the journal cannot be written ({error.strerror})",
             place=str(path),
-            mend="Free some space or choose another folder, and run the same again: it goes on",
+            hint="Free some space or choose another folder, then run the same command to continue",
         ) from error

@@ -1,7 +1,7 @@
-"""Where simulated sessions are computed: in this process, on local cores, or on a cluster.
+"""Computing simulated sessions: in this process, on local cores, or on a cluster.
 
-Each way takes the same work and gives the journals in the order of the work, so that what is
-written does not depend on who computed it.
+Every way takes the same work and yields the journals in the order of the work, so that the result
+does not depend on where it was computed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from game.study.ledger import SlotTaken
 
 Journals = Iterator[tuple[SlotTaken, bytes]]
 AHEAD = 4
-"""How many sessions are handed out for each core before the first of them is asked back."""
+"""How many sessions are handed out per core before waiting for the first of them."""
 
 
 class SchedulerError(AnaError):
@@ -30,7 +30,7 @@ class SchedulerError(AnaError):
 
 
 def here(study: Study, work: Sequence[SlotTaken], population: Population) -> Journals:
-    """In this process, one after the other."""
+    """Compute the sessions in this process, one after the other."""
     for taken in work:
         yield taken, play_session(study, taken, population)
 
@@ -38,7 +38,7 @@ def here(study: Study, work: Sequence[SlotTaken], population: Population) -> Jou
 def on_cores(
     study: Study, work: Sequence[SlotTaken], population: Population, jobs: int
 ) -> Journals:
-    """On `jobs` cores of this machine. An interrupt in between leaves no process behind."""
+    """Compute the sessions on `jobs` local cores. An interrupt leaves no process behind."""
     pool = ProcessPoolExecutor(jobs, initializer=_get_ready, initargs=(study, population))
     try:
         yield from _in_order(work, lambda taken: pool.submit(_play, taken), jobs * AHEAD)
@@ -53,15 +53,15 @@ def on_cluster(
     address: str,
     timeout_s: float = 10,
 ) -> Journals:
-    """On the workers of the dask scheduler at `address`, which need `ana` of the same version and
-    no folder in common. Raises SchedulerError when it cannot be reached."""
+    """Compute the sessions on the workers of the dask scheduler at `address`. They need the same
+    version of `ana`, but no shared folder. Raises SchedulerError if it cannot be reached."""
     try:
         from distributed import Client
     except ImportError as error:
         raise SchedulerError(
             "dask.distributed is not installed",
             place="--scheduler",
-            mend="Install the extra: pip install 'ana[cluster]'",
+            hint="Install the extra: pip install 'ana[cluster]'",
         ) from error
     try:
         client = Client(address, timeout=timeout_s)
@@ -69,7 +69,7 @@ def on_cluster(
         raise SchedulerError(
             f"no scheduler answers at {address}",
             place="--scheduler",
-            mend="Start one with `dask scheduler`, and give its address, tcp://HOST:PORT",
+            hint="Start one with `dask scheduler`, and give its address, tcp://HOST:PORT",
         ) from error
     with client:
         shared = client.scatter(study, broadcast=True)
@@ -82,14 +82,14 @@ def on_cluster(
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """The number of cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _in_order(
     work: Sequence[SlotTaken], submit: Callable[[SlotTaken], Future[bytes]], ahead: int
 ) -> Journals:
-    """What was submitted, in the order of the work, with no more than `ahead` under way."""
+    """The journals in the order of the work, with at most `ahead` in progress at a time."""
     waiting = iter(work)
     under_way = deque((taken, submit(taken)) for taken in islice(waiting, ahead))
     while under_way:
@@ -103,7 +103,7 @@ _common: tuple[Study, Population] | None = None
 
 
 def _get_ready(study: Study, population: Population) -> None:
-    """What all sessions of a process share. An interrupt is the parent's affair."""
+    """Set what all sessions of a process share. The parent process handles interrupts."""
     global _common  # noqa: PLW0603 - a pool hands its workers their common data in no other way
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _common = study, population

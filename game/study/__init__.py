@@ -1,1 +1,1 @@
-"""The design cells, allocation, protocol phases, instruments and the ledger of participants."""
+"""A study: its design, settings, texts and ledger; the rooms are `protocol` and `lab`."""

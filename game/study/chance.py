@@ -1,4 +1,4 @@
-"""Chance in a study: hashes of the seed and a purpose, the same on every machine and Python."""
+"""Randomness in a study: hashes of the seed and a purpose, equal on every machine and Python."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Thing = TypeVar("Thing")
 
 
 def digest(*parts: object) -> bytes:
-    """The SHA-256 of the parts; the first of them is the seed, the others name the purpose."""
+    """The SHA-256 of the parts: the first is the seed, the others name the purpose."""
     return sha256("/".join(str(part) for part in parts).encode()).digest()
 
 
@@ -22,5 +22,5 @@ def number(*parts: object) -> int:
 def shuffled(
     things: Iterable[Thing], name: Callable[[Thing], str], *parts: object
 ) -> tuple[Thing, ...]:
-    """The things in an order of chance; `name` tells them apart."""
+    """The things in random order; `name` tells them apart."""
     return tuple(sorted(things, key=lambda thing: digest(*parts, name(thing))))

@@ -1,9 +1,9 @@
-"""The experimental design: 24 design cells, allocated in seeded permuted blocks (design 7).
+"""The experimental design: 24 design cells, allocated in seeded permuted blocks (docs/lab.md).
 
 A block of 24 slots is two half-blocks of 12. A half-block has every memorise time x order x
-static level once; which building comes first follows from those three, and is complemented in the
-other half, so that a block has every design cell once and every half-block is balanced by itself.
-The order of slots comes from hashes of the seed: the same on every machine and Python.
+static level once; these three determine which building comes first, and the other half-block has
+it the other way round. So a block has every design cell once, and each half-block is balanced.
+The order of slots comes from hashes of the seed: it is the same on every machine and Python.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ BLOCK = 2 * HALF_BLOCK
 
 
 class DesignCell(msgspec.Struct, frozen=True, order=True):
-    """One of the 24 combinations of conditions a participant can be given.
+    """One of the 24 combinations of conditions that a participant can be given.
 
-    `long_memorise` picks the longer of the two memorise times; `first_building` is the index (0
-    or 1) of the building of the first round, the other one is that of the second.
+    `long_memorise` selects the longer of the two memorise times; `first_building` is the index (0
+    or 1) of the first round's building; the second round has the other one.
     """
 
     long_memorise: bool
@@ -33,7 +33,7 @@ class DesignCell(msgspec.Struct, frozen=True, order=True):
 
     @property
     def buildings(self) -> tuple[int, int]:
-        """The building indices of both rounds."""
+        """The building indices of the two rounds."""
         return self.first_building, 1 - self.first_building
 
     @property
@@ -56,7 +56,7 @@ def half_block(complemented: bool) -> tuple[DesignCell, ...]:
 def design_cell(seed: int, stream: str, slot: int) -> DesignCell:
     """The design cell of `slot` (from 0) in the allocation sequence `stream` of a study.
 
-    `stream` keeps live, pilot and simulated sessions apart. Raises ValueError for a negative slot.
+    `stream` separates live, pilot and simulated sessions. Raises ValueError for a negative slot.
     """
     if slot < 0:
         raise ValueError(f"slots count from 0, not {slot}")

@@ -1,6 +1,6 @@
-"""A study's folder: its settings, texts, buildings and ledger, and where its sessions are kept.
+"""A study's folder: its settings, texts, buildings, ledger and sessions.
 
-DIR/study.toml, texts.toml, items.toml      what a lab edits
+DIR/study.toml, texts.toml, items.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
 """
@@ -18,12 +18,11 @@ from typing import NamedTuple
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError
 from game.journal.folders import SESSIONS
-from game.journal.records import StudyCopy
+from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
-    Mode,
     SettingsAmended,
     StudyCreated,
     agreed_hash,
@@ -34,12 +33,9 @@ from game.study.study_settings import ScreenSize, SettingsError, StudySettings, 
 from game.study.texts import Items, Texts, read_items, read_texts
 from game.world import load_building
 from game.world.building import Building
-from game.world.labels import HALF_BLOCKS, fit_label
+from game.world.fitness import shortcomings
 
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
-MODES: tuple[Mode, ...] = ("live", "pilot", "simulated")
-MAP_MARGIN = (22, 4)
-"""Columns and rows of the fixed screen that a building's map leaves to names, clock and keys."""
 
 _BUILDINGS = {"first": "foundry", "second": "harbour", "practice": "practice"}
 _PSEUDONYM = re.compile(r"[A-Za-z0-9_-]{1,32}")
@@ -47,19 +43,19 @@ _MOST_SEED = 2**31
 
 
 class StudyError(AnaError):
-    """A study cannot be opened, or does not allow what was asked."""
+    """A study cannot be opened, or does not allow the request."""
 
 
 class Identity(NamedTuple):
-    """Whose session it is, and which kind."""
+    """Whose session it is, and in which mode."""
 
-    mode: Mode
+    mode: StudyMode
     participant: str
 
 
 @dataclass(frozen=True)
 class Study:
-    """A study as its folder has it now."""
+    """A study as its folder holds it now."""
 
     folder: Path
     settings: StudySettings
@@ -78,18 +74,17 @@ class Study:
         return self.folder / SESSIONS / identity.mode / identity.participant
 
     def building(self, name: str) -> Building:
-        """The building that the settings call `name`."""
+        """The mission building that the settings call `name`."""
         return self.buildings[self.settings.buildings.index(name)]
 
 
 def identify(participant: str, *, pilot: bool = False) -> Identity:
-    """The identity behind a participant's ID. Raises StudyError if it is not a pseudonym."""
+    """The identity for a participant's ID. Raises StudyError if it is not a pseudonym."""
     if _PSEUDONYM.fullmatch(participant) is None:
         raise StudyError(
-            f"'{participant}' cannot be a participant's ID",
-            place="--participant",
-            mend="An ID is a pseudonym of 1 to 32 letters, digits, - and _, such as P01: "
-            "no name, no address",
+            f"'{participant}' is not a participant ID",
+            hint="Use a pseudonym of 1 to 32 letters, digits, - and _, such as P01; "
+            "not a name or an address",
         )
     return Identity("pilot" if pilot else "live", participant)
 
@@ -101,17 +96,14 @@ def new_study(
     preset: str = DEFAULT_PRESET,
     now: Callable[[], str] = utc_now,
 ) -> None:
-    """Make a study folder with the default settings and texts, to be edited.
+    """Create a study folder with the default settings and texts, for the lab to edit.
 
-    `preset` is how the adaptive instructor adapts; `now` gives the time of the creation.
-
-    Raises StudyError for a folder that holds something already, or cannot be made.
+    `preset` says how the adaptive instructor adapts; `now` gives the time of creation.
+    Raises StudyError if the folder is not empty or cannot be created.
     """
     seed = randbelow(_MOST_SEED) if seed is None else seed
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise StudyError(
-            "there is something in it already", place=str(folder), mend="Choose a new folder"
-        )
+        raise StudyError("the folder is not empty", place=str(folder), hint="Choose a new folder")
     template = resources.files("game.study") / "template"
     try:
         make_folders(folder)
@@ -124,16 +116,16 @@ def new_study(
             path.write_text(text, encoding="utf-8")
     except OSError as error:
         raise StudyError(
-            f"the folder cannot be made ({error.strerror})", place=str(folder)
+            f"the folder cannot be created ({error.strerror})", place=str(folder)
         ) from error
     _, digest = read_settings(folder / SETTINGS)
     Ledger(folder / LEDGER, now).create(seed, blocks, digest)
 
 
 def open_study(folder: Path) -> Study:
-    """The study in `folder`, whole and sound.
+    """The study in `folder`, checked.
 
-    Raises StudyError or one of its relatives, naming the file and what to mend.
+    Raises AnaError, naming the file and what to fix.
     """
     path = folder / SETTINGS
     settings, digest = read_settings(path)
@@ -157,27 +149,29 @@ def open_study(folder: Path) -> Study:
 
 
 def amend(folder: Path, why: str) -> None:
-    """Record that study.toml was changed, knowingly. Raises StudyError when it was not."""
+    """Record that study.toml was changed on purpose. Raises StudyError if it was not changed."""
     study = open_study(folder)
     if agreed_hash(study.ledger.entries()) == study.copy.sha256:
-        raise StudyError("study.toml was not changed", place=str(folder))
+        raise StudyError(
+            "study.toml has not changed, so there is nothing to record", place=str(folder)
+        )
     study.ledger.amend(study.copy.sha256, why)
 
 
 def amendment(study: Study) -> str:
-    """Why the settings were changed last; empty where they were not."""
+    """Why the settings were last changed; empty if they never were."""
     last = agreement(study.ledger.entries())
     return last.why if isinstance(last, SettingsAmended) else ""
 
 
 def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], path: Path) -> None:
-    """The seed and the number of places decide the allocation, and never change."""
+    """The seed and the number of places decide the allocation, so they never change."""
     created = entries[0] if entries else None
     if not isinstance(created, StudyCreated):
         raise StudyError(
-            "the ledger does not begin with the study's creation",
+            "the ledger does not begin with the creation of the study",
             place=str(path.with_name(LEDGER)),
-            mend="Restore it from a copy",
+            hint="Restore the ledger from a backup",
         )
     for name in ("seed", "blocks"):
         asked, fixed = getattr(settings, name), getattr(created, name)
@@ -185,7 +179,7 @@ def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], 
             raise SettingsError(
                 f"{name} is {asked}, but the study was created with {fixed}",
                 place=f"{path}, {name}",
-                mend=f"Put {fixed} back, or create another study",
+                hint=f"Change it back to {fixed}, or create a new study",
             )
 
 
@@ -197,18 +191,7 @@ def _building(folder: Path, name: str) -> Building:
 
 def _check_map(building: Building, screen: ScreenSize) -> None:
     """The memorise map shows the whole building at once, with every name. Raises StudyError."""
-    columns = building.plan.width + MAP_MARGIN[0]
-    rows = -(-building.plan.height // HALF_BLOCKS.cells) + MAP_MARGIN[1]
-    if columns > screen.columns or rows > screen.rows:
-        raise StudyError(
-            f"{building.name} with its names is too large: it takes {columns} x {rows}",
-            place=f"{SETTINGS}, screen",
-            mend="Enlarge [screen], or choose a smaller building",
-        )
-    for room in building.rooms:
-        if not fit_label(room):
-            raise StudyError(
-                f"the name '{room.name}' does not fit its room on the map",
-                place=building.name,
-                mend="Shorten the name; `ana building check FILE` shows all that do not fit",
-            )
+    problems = shortcomings(building, building.name, 1, (screen.columns, screen.rows))
+    if problems:
+        first = problems[0]
+        raise StudyError(first.message, place=building.name, hint=f"{first.hint}.")

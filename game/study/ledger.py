@@ -1,7 +1,7 @@
-"""The ledger of a study: who was allocated what, kept so that it can be audited from it alone.
+"""The ledger of a study: who was allocated what, in a form that can be audited by itself.
 
-JSON lines, append only, written under an exclusive `flock` and fsynced before the lock is given
-up: whoever was told a slot finds it on the disk, and two who ask at once are told two slots. The
+Append-only JSON lines, written under an exclusive `flock` and fsynced before the lock is released:
+a slot is on the disk before anyone acts on it, and two people who ask at once get two slots. The
 lock dies with its process, so a crash never leaves it held.
 """
 
@@ -14,118 +14,117 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import msgspec
+from msgspec.structs import replace
 
 from game.errors import AnaError
+from game.journal.records import StudyMode
 from game.study.design import BLOCK, DesignCell, design_cell
 
-Mode = Literal["live", "pilot", "simulated"]
-"""Each mode has an allocation sequence of its own."""
-
-Ending = Literal["finished", "declined", "withdrawn", "dropped", "turned_away"]
+SessionEnding = Literal["finished", "declined", "withdrawn", "dropped", "turned_away"]
 
 
 class LedgerError(AnaError):
-    """The ledger cannot be read or written, or does not allow what was asked."""
+    """The ledger cannot be read or written, or does not allow the request."""
 
 
 class NoPlace(LedgerError):
     """There is no place for this participant: the study is closed or full, or the place is gone.
 
-    Its words are an experimenter's; participants read `Texts.no_place`.
+    The message is for the experimenter; participants read `Texts.no_place`.
     """
 
 
-class Entry(msgspec.Struct, frozen=True, kw_only=True, tag_field="type"):
-    """One line of the ledger."""
+class LedgerLine(msgspec.Struct, frozen=True, kw_only=True, tag_field="type"):
+    """One line of the ledger; `utc` is stamped when it is written."""
 
-    utc: str
+    utc: str = ""
 
 
-class StudyCreated(Entry, frozen=True, tag="study_created"):
+class StudyCreated(LedgerLine, frozen=True, tag="study_created"):
     seed: int
     blocks: int
     settings_hash: str
 
 
-class SlotTaken(Entry, frozen=True, tag="slot_taken"):
-    """A participant was allocated. `refill` tells that the slot was a drop-out's before."""
+class SlotTaken(LedgerLine, frozen=True, tag="slot_taken"):
+    """A participant was allocated. With `refill`, the slot used to be a drop-out's."""
 
     participant: str
-    mode: Mode
+    mode: StudyMode
     slot: int
     cell: DesignCell
     refill: bool = False
 
 
-class SessionEnded(Entry, frozen=True, tag="session_ended"):
-    """How a participant's session ended. One who withdrew leaves this and nothing else."""
+class SessionOutcome(LedgerLine, frozen=True, tag="session_ended"):
+    """How a participant's session ended. After a withdrawal nothing but this is left."""
 
     participant: str
-    mode: Mode
-    ending: Ending
+    mode: StudyMode
+    ending: SessionEnding
 
 
-class CameBack(Entry, frozen=True, tag="came_back"):
-    """One marked as a drop-out takes part again, in the slot held before."""
+class CameBack(LedgerLine, frozen=True, tag="came_back"):
+    """A participant marked as a drop-out takes part again, in the same slot."""
 
     participant: str
-    mode: Mode
+    mode: StudyMode
 
 
-class SettingsAmended(Entry, frozen=True, tag="settings_amended"):
-    """study.toml was changed after the first session, knowingly."""
+class SettingsAmended(LedgerLine, frozen=True, tag="settings_amended"):
+    """study.toml was changed after the first session, on purpose."""
 
     settings_hash: str
     why: str
 
 
-class Unblinded(Entry, frozen=True, tag="unblinded"):
+class Unblinded(LedgerLine, frozen=True, tag="unblinded"):
     """Someone asked for counts by design cell while the study was open."""
 
     why: str
 
 
-class StudyClosed(Entry, frozen=True, tag="study_closed"):
-    """Recruiting is over: no live slot is taken any more, and nothing need be concealed."""
+class StudyClosed(LedgerLine, frozen=True, tag="study_closed"):
+    """Recruiting is over: no more live slots are given out, and nothing has to be concealed."""
 
 
 LedgerEntry = (
-    StudyCreated | SlotTaken | SessionEnded | CameBack | SettingsAmended | Unblinded | StudyClosed
+    StudyCreated | SlotTaken | SessionOutcome | CameBack | SettingsAmended | Unblinded | StudyClosed
 )
+
+_Entry = TypeVar("_Entry", bound=LedgerEntry)
 
 _decoder = msgspec.json.Decoder(LedgerEntry)
 
 
 def utc_now() -> str:
-    """The wall clock, as ledgers and journals write it."""
+    """The wall clock, as written in ledgers and journals."""
     return datetime.now(UTC).isoformat(timespec="milliseconds")
 
 
 class Ledger:
-    """The ledger in one file. `now` gives the time written into entries."""
+    """The ledger in one file. `now` gives the time to write into entries."""
 
     def __init__(self, path: Path, now: Callable[[], str] = utc_now) -> None:
         self.path = path
         self._now = now
 
     def create(self, seed: int, blocks: int, settings_hash: str) -> None:
-        """Begin a ledger. Raises LedgerError where there is one already."""
+        """Begin a ledger. Raises LedgerError if there already is one."""
         if self.path.exists():
             raise LedgerError(
-                "there is a ledger already",
+                "there already is a ledger",
                 place=str(self.path),
-                mend="Choose a new folder for a new study",
+                hint="Choose a new folder for a new study",
             )
         with self._locked() as write:
-            write(
-                StudyCreated(utc=self._now(), seed=seed, blocks=blocks, settings_hash=settings_hash)
-            )
+            write(StudyCreated(seed=seed, blocks=blocks, settings_hash=settings_hash))
 
     def entries(self) -> tuple[LedgerEntry, ...]:
-        """All entries. A last line that was torn by a crash does not count."""
+        """All entries. A last line that a crash left unfinished does not count."""
         try:
             data = self.path.read_bytes()
         except OSError as error:
@@ -134,11 +133,11 @@ class Ledger:
             ) from error
         return tuple(self._decoded(data))
 
-    def allocate(self, participant: str, mode: Mode, *, refill: bool = False) -> SlotTaken:
-        """The participant's slot: the one held already, or the next free one of the mode.
+    def allocate(self, participant: str, mode: StudyMode, *, refill: bool = False) -> SlotTaken:
+        """The participant's slot: the one they already hold, or the next free one of the mode.
 
-        With `refill`, the slots of those who dropped out or withdrew are given out again first.
-        Raises NoPlace when every live slot is taken, or the study is closed.
+        With `refill`, the slots of people who dropped out or withdrew are given out first.
+        Raises NoPlace if every live slot is taken or the study is closed.
         """
         with self._locked() as write:
             entries = self.entries()
@@ -147,35 +146,26 @@ class Ledger:
                 return held
             slot, refilled = self._free_slot(entries, mode, refill)
             cell = design_cell(self._created(entries).seed, mode, slot)
-            taken = SlotTaken(
-                utc=self._now(),
-                participant=participant,
-                mode=mode,
-                slot=slot,
-                cell=cell,
-                refill=refilled,
+            return write(
+                SlotTaken(participant=participant, mode=mode, slot=slot, cell=cell, refill=refilled)
             )
-            write(taken)
-            return taken
 
-    def see_place(self, participant: str, mode: Mode, *, refill: bool = False) -> None:
-        """Raise NoPlace where `allocate` would. Nothing is written."""
+    def see_place(self, participant: str, mode: StudyMode, *, refill: bool = False) -> None:
+        """Raise NoPlace if `allocate` would. Nothing is written."""
         entries = self.entries()
         if slot_of(entries, participant, mode) is None:
             self._free_slot(entries, mode, refill)
 
-    def end_session(self, participant: str, mode: Mode, ending: Ending) -> None:
-        """Record how a session ended; the same ending twice is written once."""
+    def end_session(self, participant: str, mode: StudyMode, ending: SessionEnding) -> None:
+        """Record how a session ended; repeating the same ending writes nothing."""
         with self._locked() as write:
             if ending_of(self.entries(), participant, mode) != ending:
-                write(
-                    SessionEnded(utc=self._now(), participant=participant, mode=mode, ending=ending)
-                )
+                write(SessionOutcome(participant=participant, mode=mode, ending=ending))
 
-    def come_back(self, participant: str, mode: Mode) -> None:
-        """Let a drop-out take part again; of anybody else nothing is recorded.
+    def come_back(self, participant: str, mode: StudyMode) -> None:
+        """Let a drop-out take part again; does nothing for anyone else.
 
-        From then on the slot is not given out again. Raises NoPlace where it has been.
+        From then on the slot is not given to anyone else. Raises NoPlace if it already has been.
         """
         with self._locked() as write:
             entries = self.entries()
@@ -184,16 +174,16 @@ class Ledger:
             slot = slot_of(entries, participant, mode)
             if slot is not None and _holders(entries, mode)[slot.slot] != participant:
                 raise NoPlace(
-                    f"the place of {participant} has gone to somebody else in the meantime",
+                    f"the place of {participant} has been given to someone else",
                     place=str(self.path.parent),
                 )
-            write(CameBack(utc=self._now(), participant=participant, mode=mode))
+            write(CameBack(participant=participant, mode=mode))
 
     def agree(self, settings_hash: str) -> None:
-        """Make sure that the study runs under the settings with this hash.
+        """Make sure that the study runs with the settings that have this hash.
 
-        Until the first live slot is taken they may change freely, which is recorded. Raises
-        LedgerError when they changed afterwards without an amendment.
+        Until the first live slot is taken they may change freely; the change is recorded. Raises
+        LedgerError if they changed later without an amendment.
         """
         with self._locked() as write:
             entries = self.entries()
@@ -203,41 +193,41 @@ class Ledger:
                 raise LedgerError(
                     "study.toml was changed after the first participant was allocated",
                     place=str(self.path.parent),
-                    mend="Put it back, or record the change: ana study amend DIR --why TEXT",
+                    hint="Undo the change, or record it: ana study amend DIR --why TEXT",
                 )
-            write(
-                SettingsAmended(
-                    utc=self._now(), settings_hash=settings_hash, why="before the first participant"
-                )
-            )
+            write(SettingsAmended(settings_hash=settings_hash, why="before the first participant"))
 
     def amend(self, settings_hash: str, why: str) -> None:
         with self._locked() as write:
-            write(SettingsAmended(utc=self._now(), settings_hash=settings_hash, why=why))
+            write(SettingsAmended(settings_hash=settings_hash, why=why))
 
-    def unblind(self, why: str) -> None:
+    def unblind(self, why: str) -> bool:
+        """Record that the allocation was looked at; False where the study is closed."""
+        if is_closed(self.entries()):
+            return False
         with self._locked() as write:
-            write(Unblinded(utc=self._now(), why=why))
+            write(Unblinded(why=why))
+        return True
 
     def close(self) -> None:
-        """Close the study; closing it twice is written once."""
+        """Close the study; closing it again writes nothing."""
         with self._locked() as write:
             if not is_closed(self.entries()):
-                write(StudyClosed(utc=self._now()))
+                write(StudyClosed())
 
     def _free_slot(
-        self, entries: Sequence[LedgerEntry], mode: Mode, refill: bool
+        self, entries: Sequence[LedgerEntry], mode: StudyMode, refill: bool
     ) -> tuple[int, bool]:
-        """The next slot of a mode, and whether it was somebody's before. Raises NoPlace."""
+        """The next slot of a mode, and whether someone else had it before. Raises NoPlace."""
         places = self._created(entries).blocks * BLOCK
         if mode == "live" and is_closed(entries):
-            raise NoPlace("the study is closed", place=str(self.path), mend="Create another study")
+            raise NoPlace("the study is closed", place=str(self.path), hint="Create a new study")
         slot, refilled = _next_slot(entries, mode, refill)
         if mode == "live" and slot >= places:
             raise NoPlace(
                 f"all {places} places of the study are taken",
                 place=str(self.path),
-                mend="Close the study, or create one with more blocks",
+                hint="Close the study, or create a new one with more blocks",
             )
         return slot, refilled
 
@@ -245,9 +235,9 @@ class Ledger:
         if entries and isinstance(entries[0], StudyCreated):
             return entries[0]
         raise LedgerError(
-            "the ledger does not begin with the study's creation",
+            "the ledger does not begin with the creation of the study",
             place=f"{self.path}, line 1",
-            mend="Restore it from a copy; nothing was allocated",
+            hint="Restore the ledger from a backup; nothing was allocated",
         )
 
     def _decoded(self, data: bytes) -> Iterator[LedgerEntry]:
@@ -259,32 +249,38 @@ class Ledger:
                 yield _decoder.decode(line)
             except msgspec.DecodeError as error:
                 raise LedgerError(
-                    f"an entry cannot be read: {error}",
+                    f"this entry cannot be read: {error}",
                     place=f"{self.path}, line {number}",
-                    mend="Restore the ledger from a copy; nothing was changed",
+                    hint="Restore the ledger from a backup; nothing was changed",
                 ) from error
 
     @contextmanager
-    def _locked(self) -> Iterator[Callable[[LedgerEntry], None]]:
-        """Hold the ledger alone; yields what appends an entry durably."""
+    def _locked(self) -> Iterator[Callable[[_Entry], _Entry]]:
+        """Lock the ledger; yields a function that stamps an entry and appends it durably."""
+
+        def write(entry: _Entry) -> _Entry:
+            stamped = replace(entry, utc=self._now())
+            _append(descriptor, self.path, stamped)
+            return stamped
+
         try:
             descriptor = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT, 0o600)
         except OSError as error:
             raise LedgerError(
                 f"the ledger cannot be written ({error.strerror})",
                 place=str(self.path),
-                mend="Give this account the right to write there",
+                hint="Allow this account to write there",
             ) from error
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX)
             _drop_torn_tail(descriptor)
-            yield lambda entry: _append(descriptor, self.path, entry)
+            yield write
         finally:
             os.close(descriptor)
 
 
 def agreement(entries: Sequence[LedgerEntry]) -> StudyCreated | SettingsAmended | None:
-    """The entry with the settings that the study runs under; None where there is no ledger yet."""
+    """The entry with the settings that the study runs with; None if there is no ledger yet."""
     for entry in reversed(entries):
         if isinstance(entry, StudyCreated | SettingsAmended):
             return entry
@@ -292,7 +288,7 @@ def agreement(entries: Sequence[LedgerEntry]) -> StudyCreated | SettingsAmended 
 
 
 def agreed_hash(entries: Sequence[LedgerEntry]) -> str:
-    """The hash of the settings that the study runs under; empty where there is no ledger yet."""
+    """The hash of the settings that the study runs with; empty if there is no ledger yet."""
     agreed = agreement(entries)
     return "" if agreed is None else agreed.settings_hash
 
@@ -302,7 +298,7 @@ def is_closed(entries: Sequence[LedgerEntry]) -> bool:
     return any(isinstance(entry, StudyClosed) for entry in entries)
 
 
-def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> SlotTaken | None:
+def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: StudyMode) -> SlotTaken | None:
     """The slot a participant holds in a mode, if any."""
     for entry in entries:
         if isinstance(entry, SlotTaken) and (entry.participant, entry.mode) == (participant, mode):
@@ -310,19 +306,21 @@ def slot_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Slo
     return None
 
 
-def ending_of(entries: Sequence[LedgerEntry], participant: str, mode: Mode) -> Ending | None:
-    """How a participant's session ended last; None while it has not, or goes on again."""
+def ending_of(
+    entries: Sequence[LedgerEntry], participant: str, mode: StudyMode
+) -> SessionEnding | None:
+    """How a participant's session last ended; None if it has not, or has been resumed."""
     for entry in reversed(entries):
-        if isinstance(entry, SessionEnded | CameBack) and (entry.participant, entry.mode) == (
+        if isinstance(entry, SessionOutcome | CameBack) and (entry.participant, entry.mode) == (
             participant,
             mode,
         ):
-            return entry.ending if isinstance(entry, SessionEnded) else None
+            return entry.ending if isinstance(entry, SessionOutcome) else None
     return None
 
 
-def _holders(entries: Sequence[LedgerEntry], mode: Mode) -> dict[int, str]:
-    """Who holds each slot of a mode, or held it last."""
+def _holders(entries: Sequence[LedgerEntry], mode: StudyMode) -> dict[int, str]:
+    """Who holds each slot of a mode, or last held it."""
     return {
         entry.slot: entry.participant
         for entry in entries
@@ -330,8 +328,8 @@ def _holders(entries: Sequence[LedgerEntry], mode: Mode) -> dict[int, str]:
     }
 
 
-def _next_slot(entries: Sequence[LedgerEntry], mode: Mode, refill: bool) -> tuple[int, bool]:
-    """The next slot of a mode, and whether it was somebody's before."""
+def _next_slot(entries: Sequence[LedgerEntry], mode: StudyMode, refill: bool) -> tuple[int, bool]:
+    """The next slot of a mode, and whether someone else had it before."""
     holders = _holders(entries, mode)
     if refill:
         for slot, holder in sorted(holders.items()):
@@ -351,12 +349,12 @@ def _append(descriptor: int, path: Path, entry: LedgerEntry) -> None:
         raise LedgerError(
             "the disk is full" if full else f"the ledger cannot be written ({error.strerror})",
             place=str(path),
-            mend="Free some space and try again; the entry does not count",
+            hint="Free some space and try again; this entry was not recorded",
         ) from error
 
 
 def _drop_torn_tail(descriptor: int) -> None:
-    """Cut off what a crash left behind after the last newline: it was never acted upon."""
+    """Cut off whatever a crash left after the last newline: nothing was done because of it."""
     size = os.fstat(descriptor).st_size
     if size == 0 or os.pread(descriptor, 1, size - 1) == b"\n":
         return

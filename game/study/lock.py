@@ -1,7 +1,7 @@
-"""One process a session: a lock that names its holder, and taking over from a dead link.
+"""One process per session: a lock that names its holder, and taking over from a dead connection.
 
-The lock is the kernel's (`flock`): it dies with its process, so after a crash or a restart of the
-machine the file is there and nobody holds it.
+The lock is the kernel's (`flock`) and dies with its process: after a crash or a restart the file
+is still there, but nobody holds it.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from game.journal.sink import make_folders
 from game.study.folder import StudyError
 
 LOCK = "lock"
-PATIENCE_S = 3.0
-"""How long the other process may take to end itself."""
+TAKEOVER_S = 3.0
+"""How long the other process gets to end by itself."""
 GLANCE_S = 0.1
-"""How long `is_held` may keep a lock from somebody, at the very most."""
+"""The longest time for which `is_held` can keep someone from the lock."""
 _POLL_S = 0.02
 
 
 class SessionBusy(StudyError):
-    """Another process has the session open. `pid` is its number, None where it cannot be told."""
+    """Another process has the session open. `pid` is its number, None if unknown."""
 
     def __init__(self, path: Path, pid: int | None, silent_ms: int) -> None:
         super().__init__(
             "this session is open in another window",
             place=str(path.parent),
-            mend="Go on there, or end it there first",
+            hint="Continue there, or close that window first",
         )
         self.pid = pid
         self.silent_ms = silent_ms
 
 
 class SessionLock:
-    """Held from when it is made until `release`, or the end of the process."""
+    """Held from its creation until `release` or the end of the process."""
 
     def __init__(self, home: Path) -> None:
-        """Lock the session in `home`. Raises SessionBusy, or StudyError where that cannot be."""
+        """Lock the session in `home`. Raises SessionBusy, or StudyError if it cannot be locked."""
         self.path = home / LOCK
         try:
             make_folders(home)
@@ -67,7 +67,7 @@ def is_held(home: Path) -> bool:
     """Whether a process has the session in `home` open. Writes nothing and does not wait.
 
     The kernel's lock decides: the number in the file outlives its process, and in a copy of the
-    study it may be that of a process which has the original open.
+    study it may belong to a process that has the original open.
     """
     try:
         with (home / LOCK).open("rb") as file:
@@ -80,9 +80,9 @@ def is_held(home: Path) -> bool:
 
 
 def take_over(home: Path) -> SessionLock:
-    """End the process that holds the session and lock it: takes some seconds at most.
+    """End the process that holds the session, and lock it; takes a few seconds at most.
 
-    Raises SessionBusy when the other process cannot be ended.
+    Raises SessionBusy if the other process cannot be ended.
     """
     for number in (signal.SIGTERM, signal.SIGKILL):
         try:
@@ -93,12 +93,12 @@ def take_over(home: Path) -> SessionLock:
             with suppress(ProcessLookupError, PermissionError):
                 os.kill(busy.pid, number)
         with (home / LOCK).open("rb") as file:
-            _locks(file.fileno(), PATIENCE_S)
+            _locks(file.fileno(), TAKEOVER_S)
     return SessionLock(home)
 
 
 def _locks(descriptor: int, within_s: float) -> bool:
-    """Lock the file for this process alone; whether that could be done in time."""
+    """Lock the file for this process; whether that succeeded in time."""
     until = time.monotonic() + within_s
     while True:
         try:

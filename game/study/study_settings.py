@@ -1,11 +1,10 @@
-"""study.toml: every setting of a study, typed, and checked when it is read (design 7)."""
+"""study.toml: every setting of a study, typed and checked when it is read."""
 
 from __future__ import annotations
 
 import re
 import tomllib
 from dataclasses import fields
-from difflib import get_close_matches
 from hashlib import sha256
 from pathlib import Path
 from typing import Literal
@@ -13,15 +12,16 @@ from typing import Literal
 import msgspec
 
 from game.coach.presets import PRESETS
-from game.errors import AnaError
+from game.errors import AnaError, did_you_mean
 from game.world.settings import MissionSettings
 
-TimedPhase = Literal["memorise", "label", "mission"]
-Outcome = Literal["victims", "engagement", "confidence", "frustration", "confusion", "preference"]
+PrimaryOutcome = Literal[
+    "victims", "engagement", "confidence", "frustration", "confusion", "preference"
+]
 
 
 class SettingsError(AnaError):
-    """study.toml cannot be used as it stands."""
+    """study.toml cannot be used as it is."""
 
 
 def _within(name: str, value: int, low: int, high: int) -> None:
@@ -44,8 +44,8 @@ class ScreenSize(_Section, frozen=True):
         _within("screen.rows", self.rows, 24, 200)
 
 
-class Interruption(_Section, frozen=True):
-    """What becomes of a timed phase that broke off: go on with the remaining time, end it there,
+class InterruptionRules(_Section, frozen=True):
+    """What happens to a timed phase that was interrupted: continue with the remaining time, end it,
     or void the whole round."""
 
     memorise: Literal["continue", "void"] = "continue"
@@ -54,14 +54,14 @@ class Interruption(_Section, frozen=True):
 
 
 class Primary(_Section, frozen=True):
-    """The outcomes and the correction for multiple tests that were chosen before the data."""
+    """The outcomes and the multiple-test correction chosen before any data are collected."""
 
-    outcomes: tuple[Outcome, ...] = ("engagement", "victims")
+    outcomes: tuple[PrimaryOutcome, ...] = ("engagement", "victims")
     correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
 
 
 class StudySettings(_Section, frozen=True):
-    """All settings of a study. Raises ValueError, naming the setting, when one is out of range."""
+    """All settings of a study. Raises ValueError, naming the setting, if one is out of range."""
 
     name: str
     seed: int
@@ -76,7 +76,7 @@ class StudySettings(_Section, frozen=True):
     mission: MissionSettings = msgspec.field(
         default_factory=lambda: MissionSettings(show_score=False, allow_pause=False)
     )
-    interruption: Interruption = Interruption()
+    interruption: InterruptionRules = InterruptionRules()
     primary: Primary = Primary()
 
     def __post_init__(self) -> None:
@@ -88,7 +88,7 @@ class StudySettings(_Section, frozen=True):
         if self.preset not in PRESETS:
             raise ValueError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset}")
         if self.buildings[0] == self.buildings[1]:
-            raise ValueError("buildings must be two different ones")
+            raise ValueError("the two buildings must differ")
         if self.mission.show_score:
             raise ValueError("mission.show_score must be false in a study")
         if self.mission.allow_pause:
@@ -108,7 +108,7 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
         raise SettingsError(
             f"the settings cannot be read ({error.strerror})",
             place=str(path),
-            mend="`ana study new` makes a study folder with a study.toml",
+            hint="`ana study new` makes a study folder with a study.toml",
         ) from error
     except UnicodeDecodeError as error:
         raise SettingsError("the file is not UTF-8 text", place=str(path)) from error
@@ -118,14 +118,14 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
         _no_unknown_rules(tree.get("mission"))
         settings = msgspec.convert(tree, StudySettings)
     except msgspec.ValidationError as error:
-        message, key = _told(str(error))
+        message, key = _parted(str(error))
         place = f"{path}, {key}" if key else str(path)
-        raise SettingsError(message, place=place, mend=_suggestion(message)) from error
+        raise SettingsError(message, place=place, hint=_suggestion(message)) from error
     return settings, sha256(data).hexdigest()
 
 
 def _no_unknown_rules(mission: object) -> None:
-    """Raise as msgspec would: it lets unknown fields of a dataclass pass."""
+    """Raise what msgspec would raise if it checked dataclasses for unknown fields."""
     rules = {field.name for field in fields(MissionSettings)}
     for name in mission if isinstance(mission, dict) else ():
         if name not in rules:
@@ -134,18 +134,18 @@ def _no_unknown_rules(mission: object) -> None:
             )
 
 
-def _told(error: str) -> tuple[str, str]:
-    """msgspec's message without its path, and the path as a person writes it."""
+def _parted(error: str) -> tuple[str, str]:
+    """msgspec's message without its path, and the path as a person would write it."""
     message, _, path = error.partition(" - at `")
+    message = message.replace("Object contains unknown field", "there is no setting")
     return message, path.rstrip("`").removeprefix("$").lstrip(".")
 
 
 def _suggestion(message: str) -> str:
-    unknown = re.search(r"unknown field `(\w+)`", message)
+    unknown = re.search(r"no setting `(\w+)`", message)
     if unknown is None:
         return ""
-    sections = (StudySettings, ScreenSize, Interruption, Primary)
+    sections = (StudySettings, ScreenSize, InterruptionRules, Primary)
     names = {field for section in sections for field in section.__struct_fields__}
     names |= {field.name for field in fields(MissionSettings)}
-    close = get_close_matches(unknown[1], sorted(names), n=1)
-    return f"Did you mean {close[0]}?" if close else "Remove it"
+    return did_you_mean(unknown[1], sorted(names)) or "Remove it"

@@ -1,4 +1,4 @@
-"""What participants read and are asked: data files of the study folder, typed and checked."""
+"""What participants read and are asked: data files in the study folder, typed and checked."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from game.errors import AnaError
 
 LIKERT_POINTS = 5
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off")
-"""Tables that texts.toml did not always have: where one is missing, it is as shipped."""
+"""Tables that older texts.toml files lack: the shipped ones are used instead."""
 
 
 class TextsError(AnaError):
-    """A file of texts or items cannot be used as it stands."""
+    """A file of texts or items cannot be used as it is."""
 
 
 class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -26,7 +26,7 @@ class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 
 class Page(_Part, frozen=True):
-    """A title and its text; paragraphs are separated by blank lines, and `**words**` stand out."""
+    """A title and its text; blank lines separate paragraphs, and `**words**` are highlighted."""
 
     title: str
     body: str
@@ -49,13 +49,13 @@ class InstructorNames(_Part, frozen=True):
 
 
 class Lesson(Page, frozen=True):
-    """A page of practice; `map` tells that the practice building's map is shown beside it."""
+    """A page of practice; with `map`, the practice building's map is shown beside it."""
 
     map: bool = False
 
 
 class Lessons(_Part, frozen=True):
-    """What practice explains: how to walk, and each way in which instructors talk."""
+    """What practice explains: how to walk, and each of the ways instructors talk."""
 
     walking: Lesson
     steps: Lesson
@@ -85,20 +85,20 @@ class Units(_Part, frozen=True):
 
 
 class Login(_Part, frozen=True):
-    """Asking for the participant's ID; `wrong` is told of an answer that cannot be one."""
+    """Asking for the participant's ID; `wrong` is the reply to something that is not an ID."""
 
     ask: str
     wrong: str
 
 
 class CutOff(_Part, frozen=True):
-    """Said before the questions about something that broke off."""
+    """Shown above the questions about something that was interrupted."""
 
     mission: str
 
 
-class Words(_Part, frozen=True):
-    """The small words of the screens: what keys do, and what is still to be done."""
+class ScreenWords(_Part, frozen=True):
+    """The small words of the screens: what keys do, and what is left to do."""
 
     go_on: str
     scroll: str
@@ -155,7 +155,7 @@ class Texts(_Part, frozen=True):
     debrief: Page
     instructors: InstructorNames
     units: Units
-    words: Words
+    words: ScreenWords
 
 
 class Slider(_Part, frozen=True):
@@ -172,18 +172,20 @@ class Statement(_Part, frozen=True):
     text: str
 
 
-class Scale(_Part, frozen=True):
-    """The names of the five points, from the least agreement to the most."""
+class AnswerScale(_Part, frozen=True):
+    """The names of the five points, from least to most agreement."""
 
     answers: tuple[str, ...]
 
     def __post_init__(self) -> None:
         if len(self.answers) != LIKERT_POINTS:
-            raise ValueError(f"a scale has {LIKERT_POINTS} answers, not {len(self.answers)}")
+            raise ValueError(
+                f"the scale must have {LIKERT_POINTS} answers, not {len(self.answers)}"
+            )
 
 
-class Check(_Part, frozen=True):
-    """A question of the practice check; `right` counts from 1."""
+class CheckQuestion(_Part, frozen=True):
+    """A question of the practice check; `right` is the position of the right answer, from 1."""
 
     id: str
     text: str
@@ -201,11 +203,11 @@ class Items(_Part, frozen=True):
     version: str
     slider: tuple[Slider, ...]
     statement: tuple[Statement, ...]
-    scale: Scale
-    check: tuple[Check, ...]
+    scale: AnswerScale
+    check: tuple[CheckQuestion, ...]
 
     def __post_init__(self) -> None:
-        asked: tuple[Slider | Statement | Check, ...] = (
+        asked: tuple[Slider | Statement | CheckQuestion, ...] = (
             *self.slider,
             *self.statement,
             *self.check,
@@ -217,7 +219,7 @@ class Items(_Part, frozen=True):
 
 
 def filled(page: Page, **facts: str) -> Page:
-    """The page with each `{name}` replaced by that fact; other braces stay as they are."""
+    """The page with each `{name}` replaced by that fact; other braces stay."""
     title, body = page.title, page.body
     for name, fact in facts.items():
         title, body = title.replace(f"{{{name}}}", fact), body.replace(f"{{{name}}}", fact)
@@ -225,7 +227,7 @@ def filled(page: Page, **facts: str) -> Page:
 
 
 def preceded(page: Page, remark: str) -> Page:
-    """The page with a remark above its text, which stands out."""
+    """The page with a highlighted remark above its text."""
     return Page(title=page.title, body=f"**{remark}**\n\n{page.body.strip()}")
 
 
@@ -260,9 +262,9 @@ def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any]) -> _Read:
         raise TextsError(
             f"the file cannot be read ({error.strerror})",
             place=str(path),
-            mend="Copy it from a new study folder",
+            hint="Copy the file from a new study folder",
         ) from error
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         raise TextsError(
-            str(error), place=str(path), mend="Compare it with the file of a new study folder"
+            str(error), place=str(path), hint="Compare the file with the one in a new study folder"
         ) from error

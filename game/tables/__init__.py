@@ -1,1 +1,1 @@
-"""From what a journal tells to tidy rows, and what each of their columns means."""
+"""Tidy rows made from journals, and what each of their columns means."""

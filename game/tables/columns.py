@@ -1,6 +1,6 @@
 """Tables described by the types of their rows: what each column means, its unit and its values.
 
-A row is a `msgspec.Struct` whose fields are `Annotated` with `column(...)`. From that one place
+A row is a `msgspec.Struct` whose fields are `Annotated` with `col(...)`. From that one place
 come the header of a table, its codebook, and the text of its cells.
 """
 
@@ -19,7 +19,7 @@ DIGITS = 9
 """Reals are written to this many places after the point."""
 
 
-def column(meaning: str, unit: str = "") -> msgspec.Meta:
+def col(meaning: str, unit: str = "") -> msgspec.Meta:
     """What a field of a row means, and the unit of its values."""
     return msgspec.Meta(description=meaning, extra={"unit": unit})
 

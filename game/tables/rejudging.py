@@ -1,7 +1,7 @@
 """Algorithm 1 run again on recorded evaluations, under another preset: pure.
 
-What the rescuer did stays as it was under the levels that were really shown, so this tells how a
-rule judges given behaviour, and not what people would have done under it.
+The rescuer's behaviour stays as it was under the levels that were actually shown. So this tells how
+a rule judges given behaviour, not what people would have done under that rule.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ class Judged(NamedTuple):
 
 
 class GoalEnd(NamedTuple):
-    """A goal ended at mission time `at_ms`, by a rescue or because it was given up; then the level
-    stays, and what was said is forgotten."""
+    """A goal ended at mission time `at_ms`, by a rescue or because it was given up; the level stays
+    then, and earlier verdicts are forgotten."""
 
     at_ms: int
     rescued: bool
@@ -38,10 +38,10 @@ class GoalEnd(NamedTuple):
 def rule_of(
     name: str, *, lower_below: float | None = None, raise_above: float | None = None
 ) -> Preset:
-    """A shipped preset, with other thresholds where given.
+    """A shipped preset, with other thresholds if given.
 
-    Raises ValueError for an unknown preset, thresholds that make no sense, or a preset whose rule
-    needs more than comprehension.
+    Raises ValueError for an unknown preset, for thresholds that make no sense, and for a preset
+    whose rule needs more than comprehension.
     """
     found = preset(name)
     if found.rule != "step" or found.certain_in_goal_room:
@@ -57,8 +57,8 @@ def rule_of(
 
 
 def with_prior_mass(comprehension: float, recorded: float, other: float) -> float:
-    """What comprehension would be had the instructed prior put `other` on the goal's room in place
-    of the `recorded` mass: the same likelihoods, other prior odds (Bayes' rule)."""
+    """What comprehension would be if the instructed prior had put the mass `other` on the goal's
+    room instead of `recorded`: the same likelihoods with other prior odds (Bayes' rule)."""
     odds = (other / (1 - other)) / (recorded / (1 - recorded))
     return odds * comprehension / (odds * comprehension + 1 - comprehension)
 
@@ -66,8 +66,8 @@ def with_prior_mass(comprehension: float, recorded: float, other: float) -> floa
 def levels_under(
     rule: Preset, judged: Sequence[Judged], ends: Sequence[GoalEnd]
 ) -> Iterator[tuple[int, LevelName]]:
-    """The level from each change on, beginning with the first at 0 ms; goal ends go first at a
-    tie, as in a mission."""
+    """When each level came into force, beginning with the first at 0 ms. At a tie the end of a goal
+    goes first, as in a mission."""
     state = LevelState.first(rule)
     yield 0, level_name(state.level)
     for at_ms, what in _in_order(judged, ends):

@@ -12,11 +12,10 @@ from typing import Any
 
 import msgspec
 
-from game.coach.acts import Disobeyed
 from game.journal.failures import JournalError
-from game.journal.history import ROUNDS, Story, Timed, read_story
+from game.journal.history import History, PhaseSpan, Step, read_history
 from game.journal.reader import Transcript
-from game.journal.records import Allocated, Phase
+from game.journal.records import ROUNDS, Allocated, Phase
 from game.tables.mission_tables import MissionTables, level_name
 from game.tables.rows import (
     ActionRow,
@@ -34,8 +33,9 @@ from game.tables.rows import (
     Row,
     VictimRow,
 )
-from game.world.building import Severity
+from game.world.building import Building, Severity
 from game.world.events import Outcome
+from game.world.reading import parse_building
 
 MENTAL_STATES = ("engagement", "confidence", "frustration", "confusion")
 LIKERT_ITEMS = ("pref1", "pref2", "pref3", "pref4")
@@ -90,44 +90,62 @@ def combined(sessions: Iterable[Tables]) -> Tables:
     return replace(Tables(), **joined)
 
 
-def session_tables(transcript: Transcript) -> Tables:
-    """The rows of one session of a study. Practice is left out, but for its check.
+def session_tables(transcript: Transcript, buildings: dict[str, Building] | None = None) -> Tables:
+    """The rows of one session of a study. Practice is left out, but for its check. `buildings`, by
+    their text, spares a caller with many sessions from reading the same building again.
 
     Raises JournalError for a journal that has rounds and no allocation.
     """
-    return _Session(read_story(transcript), transcript.source).tables()
+    return _Session(transcript, {} if buildings is None else buildings).tables()
+
+
+def tables_of(transcripts: Iterable[Transcript]) -> Iterator[Tables]:
+    """The rows of each session of a study."""
+    buildings: dict[str, Building] = {}
+    return (session_tables(transcript, buildings) for transcript in transcripts)
 
 
 class _Session:
-    def __init__(self, story: Story, source: str) -> None:
-        self.story = story
-        self.source = source
-        self.participant = story.started.participant
+    def __init__(self, transcript: Transcript, buildings: dict[str, Building]) -> None:
+        self._buildings = buildings
+        self.started = transcript.started
+        self.history: History = read_history(transcript)
+        self.source = transcript.source
+        self.participant = self.started.participant
+        self.person = {"participant": self.participant}
         self.missions = {
-            round_: MissionTables(
+            mission.step.round: MissionTables(
                 self.participant,
-                round_,
-                self.adaptivity(round_),
-                self.allocated.buildings[round_ - 1],
+                mission.step.round,
+                self.adaptivity(mission.step.round),
+                self.allocated.buildings[mission.step.round - 1],
+                self._building(mission.started.building_text),
                 mission,
             )
-            for round_, mission in story.missions.items()
+            for mission in self.history.missions
+            if mission.step.phase == "mission" and mission.step.round in ROUNDS
         }
+
+    def _building(self, text: str) -> Building:
+        if text not in self._buildings:
+            self._buildings[text] = parse_building(text)
+        return self._buildings[text]
 
     @property
     def rounds(self) -> Iterator[int]:
         """The rounds begun."""
-        return (number for number in ROUNDS if any(step[1] == number for step in self.story.phases))
+        begun = {step.round for step in self.history.phases}
+        return (number for number in ROUNDS if number in begun)
 
     @property
     def allocated(self) -> Allocated:
-        if self.story.allocated is None:
+        if self.history.allocated is None:
             raise JournalError(
-                f"the session {self.story.started.session} has rounds but was never allocated",
+                f"the session {self.started.session} has rounds but was never allocated",
                 place=self.source,
-                mend="Give the journal of a study, as ana has written it.",
+                hint="Give the journal of a study, as ana has written it.",
             )
-        return self.story.allocated
+        return self.history.allocated
 
     def adaptivity(self, round_: int) -> InstructorKind:
         first = self.allocated.adaptive_first is (round_ == ROUNDS[0])
@@ -152,17 +170,17 @@ class _Session:
     # --- the participant -------------------------------------------------------------------------
 
     def participant_row(self) -> ParticipantRow:
-        story, allocated = self.story, self.story.allocated
-        terminal, practice = story.terminal, story.practice
+        history, allocated = self.history, self.history.allocated
+        terminal, practice = history.terminal, history.practice
         kinds = self.disobeyed(self.missions.values())
         return ParticipantRow(
             participant=self.participant,
-            mode=story.started.mode,
-            simulated=story.started.simulated,
-            rescuer=story.started.rescuer,
-            session_ending=story.ending,
-            last_phase=story.last_step[0],
-            last_round=story.last_step[1],
+            mode=self.started.mode,
+            simulated=self.started.simulated,
+            rescuer=self.started.rescuer,
+            session_ending=history.ending,
+            last_phase=history.step.phase,
+            last_round=history.step.round,
             slot=allocated.slot if allocated else None,
             refill=allocated.refill if allocated else None,
             complexity=level_name(allocated.static_level) if allocated else None,
@@ -176,53 +194,48 @@ class _Session:
             repeat_misstep=kinds.count("repeat_misstep"),
             other_victim=kinds.count("other_victim"),
             preferred_instructor=self.preferred(),
-            preferred_round=story.preference.preferred_round if story.preference else None,
-            preferred_ms=story.preference.response_ms if story.preference else None,
+            preferred_round=history.preference.preferred_round if history.preference else None,
+            preferred_ms=history.preference.response_ms if history.preference else None,
             practice_right=practice.right if practice else None,
             practice_asked=practice.asked if practice else None,
-            consent_version=story.consent_version,
-            segments=story.segments,
-            interruptions=story.interruptions,
-            takeovers=story.takeovers,
-            amendments=story.amendments,
-            torn_bytes=story.torn_bytes,
-            started_utc=story.started_utc,
-            ended_utc=story.ended_utc,
+            consent_version=history.consent_version,
+            segments=history.resumed + 1,
+            interruptions=history.interruptions,
+            takeovers=history.takeovers,
+            amendments=history.amendments,
+            torn_bytes=history.torn_bytes,
+            started_utc=history.started_utc,
+            ended_utc=history.ended_utc,
             term=terminal.term if terminal else None,
             colorterm=terminal.colorterm if terminal else None,
             terminal_columns=terminal.columns if terminal else None,
             terminal_rows=terminal.rows if terminal else None,
-            game_version=story.versions.game,
-            study_sha256=story.started.study.sha256 if story.started.study else None,
+            game_version=(history.versions or self.started.versions).game,
+            study_sha256=self.started.study.sha256 if self.started.study else None,
         )
 
     def quiz_before(self, instructor: InstructorKind) -> float | None:
-        for round_, quiz in self.story.quizzes.items():
+        for round_, quiz in self.history.quizzes.items():
             if self.adaptivity(round_) == instructor:
                 return quiz.right / quiz.asked
         return None
 
     def preferred(self) -> InstructorKind | None:
-        preference = self.story.preference
+        preference = self.history.preference
         return None if preference is None else self.adaptivity(preference.preferred_round)
 
     @staticmethod
     def disobeyed(missions: Iterable[MissionTables]) -> list[str]:
-        return [
-            record.kind
-            for mission in missions
-            for record in mission.records
-            if isinstance(record, Disobeyed)
-        ]
+        return [kind for mission in missions for kind in mission.mission.disobeyed]
 
     # --- the rounds ------------------------------------------------------------------------------
 
     def round_row(self, round_: int) -> RoundRow:
-        story, allocated = self.story, self.allocated
+        history, allocated = self.history, self.allocated
         everywhere = self.disobeyed(self.missions.values())
-        timed = {phase: story.phases.get((phase, round_)) for phase in TIMED}
-        void = story.is_void(round_)
-        quiz = story.quizzes.get(round_)
+        timed = {phase: history.phases.get(Step(phase, round_)) for phase in TIMED}
+        void = history.is_void(round_)
+        quiz = history.quizzes.get(round_)
         empty = dict.fromkeys(RoundRow.__struct_fields__)
         given = self.answers(round_, void) | self.played(round_, void)
         return msgspec.convert(
@@ -230,7 +243,7 @@ class _Session:
             | given
             | {
                 "participant": self.participant,
-                "simulated": story.started.simulated,
+                "simulated": self.started.simulated,
                 "round": round_,
                 "adaptivity": self.adaptivity(round_),
                 "complexity": level_name(allocated.static_level),
@@ -259,8 +272,8 @@ class _Session:
         named = (*MENTAL_STATES, *LIKERT_ITEMS)
         values = {
             item: answer.value
-            for (_, number, item), answer in self.story.items.items()
-            if number == round_ and item in named
+            for (step, item), answer in self.history.items.items()
+            if step.round == round_ and item in named
         }
         whole = all(item in values for item in LIKERT_ITEMS)
         total = sum(values[item] for item in LIKERT_ITEMS) if whole else None
@@ -292,7 +305,7 @@ class _Session:
             "instructions": len(instructions),
             "completed": sum(row.completed_ms is not None for row in instructions),
             "fallbacks": sum(row.fallback for row in instructions),
-            **_shares(levels, mission.until_ms),
+            **_shares(levels, mission.mission.until_ms),
             "switches": max(0, len(levels) - 1),
             "mean_comprehension": sum(clear) / len(clear) if clear else None,
             "moves": outcomes.count(Outcome.MOVED),
@@ -303,66 +316,39 @@ class _Session:
     # --- the other tables ------------------------------------------------------------------------
 
     def items(self) -> Iterator[ItemRow]:
-        for (phase, round_, item), answer in self.story.items.items():
-            yield ItemRow(
-                participant=self.participant,
-                phase=phase,
-                round=round_,
-                adaptivity=self.adaptivity(round_) if round_ else None,
-                item=item,
-                text=answer.text,
-                place=answer.place,
-                value=answer.value,
-                response_ms=answer.response_ms,
-                changes=answer.changes,
-            )
+        for (step, _), answer in self.history.items.items():
+            instructor = self.adaptivity(step.round) if step.round else None
+            yield ItemRow.of(answer, **step._asdict(), **self.person, adaptivity=instructor)
 
     def labels(self) -> Iterator[LabelRow]:
-        for (round_, room), (answer, changes) in self.story.labels.items():
+        for (round_, _), (answer, changes) in self.history.labels.items():
             if answer.answer is not None:
-                yield LabelRow(
-                    participant=self.participant,
+                yield LabelRow.of(
+                    answer,
+                    **self.person,
                     round=round_,
                     adaptivity=self.adaptivity(round_),
                     building=self.allocated.buildings[round_ - 1],
-                    room=room,
-                    answer=answer.answer,
-                    correct=answer.correct,
-                    response_ms=answer.response_ms,
                     changes=changes,
                 )
 
     def phases(self) -> Iterator[PhaseRow]:
-        for (phase, round_), span in self.story.phases.items():
-            yield PhaseRow(
-                participant=self.participant,
-                phase=phase,
-                round=round_,
-                phase_ending=span.ending,
-                exposure_ms=span.exposure_ms,
-                starts=span.starts,
-                started_utc=span.started_utc,
-                ended_utc=span.ended_utc,
+        for step, span in self.history.phases.items():
+            yield PhaseRow.of(
+                **self.person, **step._asdict(), **vars(span), phase_ending=span.ending
             )
 
     def free_texts(self) -> Iterator[FreeTextRow]:
-        for text in self.story.free_texts:
-            if not text.answer:
-                continue
-            yield FreeTextRow(
-                participant=self.participant,
-                item=text.item,
-                text=text.text,
-                answer=text.answer,
-                response_ms=text.response_ms,
-            )
+        for text in self.history.free_texts:
+            if text.answer:
+                yield FreeTextRow.of(text, **self.person)
 
 
 def _order(allocated: Allocated) -> OrderName:
     return "adaptive_first" if allocated.adaptive_first else "static_first"
 
 
-def _exposure(span: Timed | None) -> int | None:
+def _exposure(span: PhaseSpan | None) -> int | None:
     return None if span is None else span.exposure_ms
 
 

@@ -1,7 +1,7 @@
-"""Buildings from plain CSV grids (0 floor, 1 wall, 2 door), as earlier studies kept them.
+"""Buildings from plain CSV grids (0 floor, 1 wall, 2 door), as used in earlier studies.
 
-A grid has no names, victims or start. They come from a small legend beside it (see
-docs/building-format.md) or, where there is none, from `game.world.furnishing` and a seed.
+A grid has no names, victims or start. They come from a small legend beside it
+(docs/building-format.md) or, if there is none, from `game.world.furnishing` and a seed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _PLACED = re.compile(
     r"(?:room (?P<room>.+)|(?P<victim>red|blue) victim|start)"
     r" at (?P<x>\d+)\s*,\s*(?P<y>\d+)(?: facing (?P<facing>north|east|south|west))?"
 )
-_TILE_VALUES = "Write 0 for floor, 1 for wall or 2 for a door"
+_TILE_VALUES = "Use 0 for floor, 1 for wall or 2 for a door"
 _PLACINGS = (
     "Write 'room NAME at X,Y', 'red victim at X,Y', 'blue victim at X,Y' "
     "or 'start at X,Y facing north|east|south|west'"
@@ -32,7 +32,7 @@ _PLACINGS = (
 def import_grid(
     grid: str, source: str, *, name: str, legend: str | None, legend_source: str, seed: int
 ) -> Building:
-    """The building of a CSV `grid`, with the places of `legend` or, if it is None, of `seed`.
+    """The building of a CSV `grid`, furnished by `legend` or, if that is None, by `seed`.
 
     Raises BuildingError, which names `source` or `legend_source`.
     """
@@ -48,7 +48,7 @@ def import_grid(
 
 
 def read_grid(grid: str, source: str) -> Plan:
-    """The plan in a CSV grid. Raises BuildingError, whose column counts the values of a line."""
+    """The plan in a CSV grid. Raises BuildingError; its columns count values, not characters."""
     rows = [line.split(",") for line in grid.rstrip().splitlines()]
     problems = tuple(_grid_problems(rows, source))
     if problems:
@@ -65,12 +65,12 @@ def _grid_problems(rows: list[list[str]], source: str) -> Iterator[Problem]:
     for number, row in enumerate(rows, start=1):
         for column, value in enumerate(row, start=1):
             if value.strip() not in _TILES:
-                message = f"'{value.strip()[:20]}' is no tile"
+                message = f"'{value.strip()[:20]}' is not a tile"
                 yield Problem(source, number, column, message, _TILE_VALUES)
         if len(row) != width:
             message = f"the row has {len(row)} values, the first has {width}"
-            mend = "Give every row the same number of values"
-            yield Problem(source, number, min(len(row), width) + 1, message, mend)
+            hint = "Give every row the same number of values"
+            yield Problem(source, number, min(len(row), width) + 1, message, hint)
 
 
 def _read_legend(legend: str, plan: Plan, name: str, source: str, legend_source: str) -> Drawing:
@@ -88,16 +88,16 @@ def _read_legend(legend: str, plan: Plan, name: str, source: str, legend_source:
             continue
         placed = _PLACED.fullmatch(line)
         if placed is None or line.startswith("start") != bool(placed["facing"]):
-            message, mend = f"'{line[:40]}' places nothing", _PLACINGS
-            problems.append(Problem(legend_source, number, 1, message, mend))
+            message, hint = f"'{line[:40]}' is not a valid line", _PLACINGS
+            problems.append(Problem(legend_source, number, 1, message, hint))
             continue
         cell = int(placed["x"]), int(placed["y"])
         if plan.tile(cell) is not Tile.FLOOR:
             message = (
                 f"{cell[0]},{cell[1]} is not a floor cell of the {plan.width} x {plan.height} grid"
             )
-            mend = "Give x,y counted from 0 at the top left"
-            problems.append(Problem(legend_source, number, placed.start("x") + 1, message, mend))
+            hint = "Give x,y, both counted from 0 at the top left"
+            problems.append(Problem(legend_source, number, placed.start("x") + 1, message, hint))
         elif placed["room"]:
             rooms.append(RoomMark(placed["room"], (cell,), number))
         elif placed["victim"]:

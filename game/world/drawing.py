@@ -1,7 +1,7 @@
-"""From what a file draws to a building: every rule a building must keep, and the way to mend it.
+"""From the drawing in a file to a building: every rule that a building must obey, with hints.
 
-A `Drawing` is what a text file or a CSV with its legend says, not yet checked. `survey` lists all
-that is wrong with it; `build` derives rooms, doors and victims from a sound one.
+A `Drawing` is the unchecked content of a text file, or of a CSV grid and its legend. `survey` lists
+everything that is wrong with it; `build` derives rooms, doors and victims from a valid one.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ _OPEN_A_WAY = "Open a way to it with floor or a door"
 
 @dataclass(frozen=True, order=True)
 class Problem:
-    """Something wrong at a line and column (both from 1) of a file, and how to mend it."""
+    """A problem at a line and column (both from 1) of a file, and how to fix it."""
 
     source: str
     line: int
     column: int
     message: str
-    mend: str
+    hint: str
 
     @property
     def place(self) -> str:
@@ -38,7 +38,7 @@ class Problem:
 class BuildingError(AnaError):
     """A building that cannot be used.
 
-    `problems` holds all that was found, in file order; the error itself tells the first.
+    `problems` holds everything found, in file order; the error's message is the first.
     """
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
@@ -46,13 +46,13 @@ class BuildingError(AnaError):
         message = first.message
         if more:
             message += f" (and {more} more {'problem' if more == 1 else 'problems'})"
-        super().__init__(message, place=first.place, mend=first.mend)
+        super().__init__(message, place=first.place, hint=first.hint)
         self.problems = problems
 
 
 @dataclass(frozen=True)
 class RoomMark:
-    """A room's name, the cells that bear it, and the line of the file that says so."""
+    """A room's name, the cells marked with it, and the line of the file that defines it."""
 
     name: str
     cells: tuple[Cell, ...]
@@ -63,8 +63,8 @@ class RoomMark:
 class Drawing:
     """A building as drawn.
 
-    Row y of the plan stands on line `top_line` + y of the file `source`; `legend_source` and
-    `legend_line` are where whatever is missing from the legend belongs.
+    Row y of the plan is on line `top_line` + y of the file `source`; anything missing from the
+    legend belongs at `legend_line` of `legend_source`.
     """
 
     source: str
@@ -86,15 +86,15 @@ class Drawing:
         """The enclosed space that each floor cell belongs to."""
         return {cell: region for region in floor_regions(self.plan) for cell in region}
 
-    def problem(self, cell: Cell, message: str, mend: str) -> Problem:
-        return Problem(self.source, self.top_line + cell[1], cell[0] + 1, message, mend)
+    def problem(self, cell: Cell, message: str, hint: str) -> Problem:
+        return Problem(self.source, self.top_line + cell[1], cell[0] + 1, message, hint)
 
-    def legend_problem(self, line: int, message: str, mend: str) -> Problem:
-        return Problem(self.legend_source, line, 1, message, mend)
+    def legend_problem(self, line: int, message: str, hint: str) -> Problem:
+        return Problem(self.legend_source, line, 1, message, hint)
 
 
 def build(drawing: Drawing, text: str) -> Building:
-    """The building that a sound drawing (one in which `survey` finds nothing) describes."""
+    """The building described by a valid drawing (one in which `survey` finds nothing)."""
     doors = drawing.doors
     rooms = []
     for mark in drawing.rooms:
@@ -111,7 +111,7 @@ def build(drawing: Drawing, text: str) -> Building:
 
 
 def survey(drawing: Drawing) -> tuple[Problem, ...]:
-    """Everything that keeps a drawing from being a building, in file order."""
+    """Everything that makes a drawing invalid, in file order."""
     return tuple(
         sorted(
             (
@@ -141,7 +141,7 @@ def _outer_wall(drawing: Drawing) -> Iterator[Problem]:
             yield drawing.problem(
                 gaps[0],
                 f"the {side} outer wall is open{count}",
-                "Close the outline of the plan with wall",
+                "Draw wall all around the plan",
             )
 
 
@@ -150,7 +150,7 @@ def _start(drawing: Drawing) -> Iterator[Problem]:
         yield drawing.legend_problem(
             drawing.legend_line,
             "the building has no start",
-            "Place exactly one start, with the way it faces",
+            "Add exactly one start, with the direction it faces",
         )
     for cell, _ in drawing.starts[1:]:
         yield drawing.problem(
@@ -159,20 +159,22 @@ def _start(drawing: Drawing) -> Iterator[Problem]:
 
 
 def _crowds(drawing: Drawing) -> Iterator[Problem]:
-    """One thing a cell: a text file can draw no more, and a room's glyph needs a cell too."""
+    """One thing per cell: a text file can draw no more, and a room's glyph needs a cell too."""
     taken = {cell for cell, _ in drawing.starts}
     for cell, severity in drawing.victims:
         if cell in taken:
             yield drawing.problem(
-                cell, f"the {severity} victim lies where something else is", "Place it beside that"
+                cell,
+                f"the {severity} victim is on a cell that is already taken",
+                "Move it to a free cell",
             )
         taken.add(cell)
     for mark in drawing.rooms:
         if taken.issuperset(drawing.region_of[mark.cells[0]]):
             yield drawing.problem(
                 mark.cells[0],
-                f"'{mark.name}' has no cell to spare",
-                "Leave one of its cells to neither a victim nor the start",
+                f"'{mark.name}' has no free cell",
+                "Leave one of its cells free of victims and of the start",
             )
 
 
@@ -184,18 +186,18 @@ def _names(drawing: Drawing) -> Iterator[Problem]:
             yield drawing.legend_problem(
                 mark.line,
                 f"the room name '{mark.name}' is already used on line {known}",
-                "Give every room a name of its own; capitals make no difference",
+                "Give every room its own name; capitals make no difference",
             )
         if not sound_name(mark.name):
             yield drawing.legend_problem(
                 mark.line,
-                f"'{mark.name}' is no room name",
+                f"'{mark.name}' is not a valid room name",
                 "Begin with a letter or digit; use letters, digits, single spaces and - ' & /",
             )
 
 
 def sound_name(name: str) -> bool:
-    """Whether a name can stand in a sentence of the coach without breaking it."""
+    """Whether the coach can use the name in a sentence."""
     return (
         name[:1].isalnum()
         and name == " ".join(name.split())
@@ -204,7 +206,7 @@ def sound_name(name: str) -> bool:
 
 
 def _spaces(drawing: Drawing) -> Iterator[Problem]:
-    """One name a space and one space a name, all within reach, with a door; no victim elsewhere."""
+    """Each room has one name, a door and a way to it; every victim is in a room."""
     region_of = drawing.region_of
     reached = _reached(drawing)
     named: dict[Cell, str] = {}
@@ -214,15 +216,15 @@ def _spaces(drawing: Drawing) -> Iterator[Problem]:
         if stray is not None:
             yield drawing.problem(
                 stray,
-                f"'{mark.name}' stands in two enclosed spaces",
-                "Keep a room's glyphs within its walls, or remove the wall that parts them",
+                f"'{mark.name}' is in two enclosed spaces",
+                "Keep a room's glyphs inside its walls, or remove the wall between them",
             )
         other = named.setdefault(home[0], mark.name)
         if other != mark.name:
             yield drawing.problem(
                 mark.cells[0],
-                f"'{mark.name}' and '{other}' stand in one enclosed space",
-                "Part them by wall and door, or keep one of the names",
+                f"'{mark.name}' and '{other}' are in the same enclosed space",
+                "Separate them with a wall and a door, or keep one of the names",
             )
         elif not doors_of(home, drawing.doors):
             yield drawing.problem(
@@ -238,8 +240,8 @@ def _spaces(drawing: Drawing) -> Iterator[Problem]:
         if cell in reached:
             yield drawing.problem(
                 cell,
-                f"the {severity} victim lies in no named room",
-                "Move the victim into a room, or name the space it lies in as a room",
+                f"the {severity} victim is not in a named room",
+                "Move the victim into a room, or add a room name where it is",
             )
         else:
             yield drawing.problem(
@@ -248,7 +250,7 @@ def _spaces(drawing: Drawing) -> Iterator[Problem]:
 
 
 def _reached(drawing: Drawing) -> frozenset[Cell]:
-    """The cells that can be walked to from any start; every cell if there is none to start at."""
+    """The cells that can be reached from any start; every cell if there is no start."""
     if not drawing.starts:
         plan = drawing.plan
         return frozenset(plan.cells(plan.walkable_mask))

@@ -1,7 +1,7 @@
 """Names, victims and a start for a bare plan, drawn from a seed.
 
-Each choice has a stream of its own, `random.Random("furnishing/<purpose>/<seed>")`, so that one
-plan and one seed give one building on every machine.
+Each choice has its own stream, `random.Random("furnishing/<purpose>/<seed>")`, so that a plan and a
+seed give the same building on every machine.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from game.world.regions import Region, doors_of, doorways, floor_regions, label_
 VICTIMS = 20
 REDS = 7
 SMALLEST_ROOM = 6
-"""Floor cells below which an enclosed space gets no name."""
+"""An enclosed space with fewer floor cells gets no name."""
 
 
 def furnish(plan: Plan, name: str, seed: int, source: str) -> Drawing:
     """A bare plan with names, victims and a start.
 
-    The enclosed space with the most doors (of several, the largest) is the hallway network: the
-    start is there. Every other enclosed space that can be walked to and is not tiny is a room.
-    Victims lie in rooms, at most one more in one room than in another. Raises BuildingError if
+    The enclosed space with the most doors (the largest of several) is the hallway network, which
+    has the start. Every other enclosed space that can be reached and is not tiny is a room.
+    Victims are spread evenly over the rooms as far as there is space. Raises BuildingError if
     the plan has no room.
     """
     doors = doorways(plan)
@@ -45,8 +45,8 @@ def furnish(plan: Plan, name: str, seed: int, source: str) -> Drawing:
             source,
             1,
             1,
-            "the grid has no room that a door joins to the rest",
-            "Mark doors with 2 between rooms and hallways",
+            "the grid has no room that is connected by a door",
+            "Mark the doors between rooms and hallways with 2",
         )
         raise BuildingError((problem,))
     start = _stream("start", seed).choice(hallway)
@@ -72,7 +72,7 @@ def _stream(purpose: str, seed: int) -> Random:
 
 
 def _names(rooms: list[Region], seed: int) -> list[str]:
-    """A different name for each room, one that fits its room on the map if there is any."""
+    """A different name for each room, if possible one that fits its room on the map."""
     left = list(ROOM_NAMES)
     _stream("names", seed).shuffle(left)
     chosen = []
@@ -88,7 +88,7 @@ def _names(rooms: list[Region], seed: int) -> list[str]:
 def _victims(
     rooms: list[Region], doors: tuple[Door, ...], seed: int
 ) -> tuple[tuple[Cell, Severity], ...]:
-    """Victims dealt to the rooms in rounds, in random order, off the thresholds if possible."""
+    """Victims dealt to the rooms in turn, in random order, away from the doors if possible."""
     stream = _stream("victims", seed)
     thresholds = {
         heading.from_cell(cell) for door in doors for cell in door.cells for heading in Heading
@@ -110,7 +110,7 @@ def _victims(
 
 
 def _widest_view(plan: Plan, cell: Cell) -> Heading:
-    """The heading with the longest free run ahead; of several, the first clockwise from north."""
+    """The heading with the longest free run ahead; the first of several, clockwise from north."""
 
     def run(heading: Heading) -> int:
         steps = 0
@@ -121,80 +121,16 @@ def _widest_view(plan: Plan, cell: Cell) -> Heading:
     return max(Heading, key=run)
 
 
-ROOM_NAMES = (
-    "Audit Office",
-    "Badge Office",
-    "Ballroom",
-    "Bike Store",
-    "Book Store",
-    "Branch Office",
-    "Briefing Room",
-    "Buying Office",
-    "Card Room",
-    "Chart Room",
-    "Coffee Bar",
-    "Coat Room",
-    "Cold Store",
-    "Council Room",
-    "Craft Room",
-    "Data Room",
-    "Dining Hall",
-    "Dispatch",
-    "Drawing Office",
-    "Estate Office",
-    "Events Room",
-    "Exam Room",
-    "Film Room",
-    "Fitting Room",
-    "Form Store",
-    "Garden Room",
-    "Gift Shop",
-    "Grants Office",
-    "Green Room",
-    "Help Desk",
-    "Host Office",
-    "Key Room",
-    "Lamp Store",
-    "Laundry",
-    "Lecture Room",
-    "Loan Desk",
-    "Map Room",
-    "Media Room",
-    "Model Room",
-    "Music Room",
-    "News Room",
-    "North Office",
-    "Nurse Room",
-    "Paint Store",
-    "Parcel Room",
-    "Parts Store",
-    "Permit Office",
-    "Phone Room",
-    "Photo Lab",
-    "Pool Room",
-    "Project Room",
-    "Quiet Room",
-    "Radio Room",
-    "Rent Office",
-    "Repair Shop",
-    "Safe Room",
-    "Sample Room",
-    "Sound Room",
-    "South Office",
-    "Spare Room",
-    "Staff Room",
-    "Survey Office",
-    "Switch Room",
-    "Tax Office",
-    "Tool Room",
-    "Travel Desk",
-    "Trophy Room",
-    "Typing Room",
-    "Vault",
-    "Video Room",
-    "Visa Office",
-    "Waiting Room",
-    "Water Lab",
-    "West Office",
-    "Writing Room",
-)
+_ROOM_NAMES = """
+Audit Office, Badge Office, Ballroom, Bike Store, Book Store, Branch Office, Briefing Room, Buying
+Office, Card Room, Chart Room, Coffee Bar, Coat Room, Cold Store, Council Room, Craft Room, Data
+Room, Dining Hall, Dispatch, Drawing Office, Estate Office, Events Room, Exam Room, Film Room,
+Fitting Room, Form Store, Garden Room, Gift Shop, Grants Office, Green Room, Help Desk, Host
+Office, Key Room, Lamp Store, Laundry, Lecture Room, Loan Desk, Map Room, Media Room, Model Room,
+Music Room, News Room, North Office, Nurse Room, Paint Store, Parcel Room, Parts Store, Permit
+Office, Phone Room, Photo Lab, Pool Room, Project Room, Quiet Room, Radio Room, Rent Office,
+Repair Shop, Safe Room, Sample Room, Sound Room, South Office, Spare Room, Staff Room, Survey
+Office, Switch Room, Tax Office, Tool Room, Travel Desk, Trophy Room, Typing Room, Vault, Video
+Room, Visa Office, Waiting Room, Water Lab, West Office, Writing Room
+"""
+ROOM_NAMES = tuple(" ".join(_ROOM_NAMES.split()).split(", "))

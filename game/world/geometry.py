@@ -40,3 +40,10 @@ class Heading(IntEnum):
 
 
 _STEPS: tuple[Cell, ...] = ((0, -1), (1, 0), (0, 1), (-1, 0))
+
+
+def reach(position: Cell, heading: Heading) -> tuple[Cell, ...]:
+    """The cells in which triage finds a victim, first to last: one's own, the one ahead, then
+    clockwise."""
+    around = (heading, heading.right, heading.back, heading.left)
+    return (position, *(way.from_cell(position) for way in around))

@@ -1,4 +1,4 @@
-"""Where a room's name stands on a drawn map: inside its room, on free floor, wrapped over rows."""
+"""Where to write a room's name on a map: inside the room, on free floor, wrapped over rows."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from game.world.geometry import Cell
 
 
 @dataclass(frozen=True)
-class Scale:
-    """How many terminal columns a cell takes, and how many cells, one above the other, a row."""
+class MapScale:
+    """Terminal columns per cell, and cells (one above the other) per terminal row."""
 
     columns: int
     cells: int
 
 
-HALF_BLOCKS = Scale(columns=1, cells=2)
+HALF_BLOCKS = MapScale(columns=1, cells=2)
 """The memorise map: a cell is one column wide and half a row high."""
-SQUARES = Scale(columns=2, cells=1)
+SQUARES = MapScale(columns=2, cells=1)
 
 
 @dataclass(frozen=True)
@@ -32,18 +32,18 @@ class LabelLine:
     text: str
 
 
-def fit_label(room: Room, scale: Scale = HALF_BLOCKS) -> tuple[LabelLine, ...]:
+def fit_label(room: Room, scale: MapScale = HALF_BLOCKS) -> tuple[LabelLine, ...]:
     """The lines of a room's name on the map; none if it does not fit."""
     return label_lines(room.name, room.cells, scale)
 
 
 def label_lines(
-    name: str, cells: Sequence[Cell], scale: Scale = HALF_BLOCKS
+    name: str, cells: Sequence[Cell], scale: MapScale = HALF_BLOCKS
 ) -> tuple[LabelLine, ...]:
-    """The lines of `name` over `cells`, no wall covered; none if it does not fit.
+    """The lines of `name` over `cells`, covering no wall; none if it does not fit.
 
-    As few lines as possible, broken between words, centred one below the other and as near as
-    possible to the centroid. Offsets are integers: half columns times the number of cells.
+    As few lines as possible, broken between words, centred below each other as near as possible
+    to the centroid. Offsets are integers: half columns times the number of cells.
     """
     rows = _free_columns(cells, scale)
     count = len(cells)
@@ -65,8 +65,8 @@ def label_lines(
     return ()
 
 
-def _free_columns(cells: Sequence[Cell], scale: Scale) -> dict[int, frozenset[int]]:
-    """For every map row, the terminal columns in which nothing but `cells` is drawn."""
+def _free_columns(cells: Sequence[Cell], scale: MapScale) -> dict[int, frozenset[int]]:
+    """For every map row, the terminal columns in which only `cells` are drawn."""
     free = frozenset(cells)
     rows: dict[int, set[int]] = {}
     for x, y in free:
@@ -79,7 +79,7 @@ def _free_columns(cells: Sequence[Cell], scale: Scale) -> dict[int, frozenset[in
 
 
 def _wrappings(words: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """Every way to break the words into lines: fewest lines first, then shortest longest line."""
+    """All ways to break the words into lines: fewest lines first, then shortest longest line."""
     for breaks in range(len(words)):
         ways = []
         for cut in combinations(range(1, len(words)), breaks):
@@ -89,7 +89,7 @@ def _wrappings(words: Sequence[str]) -> Iterator[tuple[str, ...]]:
 
 
 def _axes(texts: Sequence[str], top: int, rows: dict[int, frozenset[int]]) -> list[int]:
-    """The axes, in half columns, about which the texts can stand centred from row `top` down."""
+    """The axes, in half columns, on which the texts can be centred from row `top` down."""
     free = [rows.get(row, frozenset[int]()) for row in range(top, top + len(texts))]
     if not all(free):
         return []

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 
-from game.errors import AnaError
+from game.errors import AnaError, choose_from
 from game.world.building import Building
 from game.world.csv_import import import_grid
 from game.world.reading import decode, parse_building
@@ -15,6 +14,7 @@ from game.world.reading import decode, parse_building
 _SHELF = Path(__file__).with_name("buildings")
 _SUFFIX = ".txt"
 _CSV = ".csv"
+_OR_A_FILE = ", or give the path of a building file"
 _LEGENDS = (".legend.txt", ".legend")
 
 
@@ -27,7 +27,7 @@ def shipped_buildings() -> tuple[str, ...]:
 def load_building(name_or_path: str | PathLike[str], seed: int = 0) -> Building:
     """The shipped building of that name, or the one in that file.
 
-    A file ending in `.csv` is read as a grid; `seed` then decides what no legend beside it places.
+    A file ending in `.csv` is read as a grid; without a legend, `seed` decides what is where.
     Raises BuildingError for a bad file and AnaError if there is no such name or file.
     """
     name = fspath(name_or_path)
@@ -35,7 +35,10 @@ def load_building(name_or_path: str | PathLike[str], seed: int = 0) -> Building:
         return parse_building(read_text(_SHELF / (name + _SUFFIX)), name)
     path = Path(name)
     if not (path.suffix or path.is_file() or "/" in name):
-        raise AnaError(f"there is no building '{name}'", mend=_suggestion(name))
+        raise AnaError(
+            f"there is no building '{name}'",
+            hint=choose_from(name, shipped_buildings(), _OR_A_FILE),
+        )
     if path.suffix.lower() == _CSV:
         return _load_grid(path, seed)
     return parse_building(read_text(path), name)
@@ -55,18 +58,12 @@ def _load_grid(path: Path, seed: int) -> Building:
 
 
 def read_text(path: Path) -> str:
-    """What the file says. Raises AnaError if it cannot be read, BuildingError if it is no text."""
+    """The text of a file. Raises AnaError if it cannot be read, BuildingError if it is not text."""
     try:
         return decode(path.read_bytes(), str(path))
     except OSError as error:
         raise AnaError(
             f"the file cannot be read ({error.strerror})",
             place=str(path),
-            mend="Give the path of a building file, or one of " + ", ".join(shipped_buildings()),
+            hint="Give the path of a building file, or one of " + ", ".join(shipped_buildings()),
         ) from None
-
-
-def _suggestion(name: str) -> str:
-    near = get_close_matches(name.casefold(), shipped_buildings(), n=1)
-    choice = f"Did you mean {near[0]}? " if near else ""
-    return f"{choice}The buildings are {', '.join(shipped_buildings())}; a file needs its path."

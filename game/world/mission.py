@@ -21,7 +21,7 @@ from game.world.events import (
     TreatmentBroken,
     TreatmentStarted,
 )
-from game.world.geometry import Heading
+from game.world.geometry import Heading, reach
 from game.world.observation import (
     Guidance,
     Observation,
@@ -159,7 +159,7 @@ class Mission:
         """What the rescuer sees now, with `guidance` on the bar."""
         settings, seen = self.settings, self._seen
         return Observation(
-            plan=self.building.plan,
+            terrain=self.building.terrain,
             visible=seen.visible,
             explored=self._explored,
             victims=seen.victims,
@@ -177,10 +177,8 @@ class Mission:
         )
 
     def victim_in_reach(self) -> VictimSite | None:
-        """The waiting victim that triage would treat: own cell, then ahead, then clockwise."""
-        ahead = self.heading
-        around = (ahead, ahead.right, ahead.back, ahead.left)
-        for cell in (self.position, *(heading.from_cell(self.position) for heading in around)):
+        """The waiting victim that triage would treat: the first in `reach`."""
+        for cell in reach(self.position, self.heading):
             site = self._site_at.get(cell)
             if site is not None and self.victims[site.id] is VictimState.WAITING:
                 return site

@@ -8,6 +8,7 @@ from enum import StrEnum
 from game.world.building import Severity
 from game.world.geometry import Cell, Heading
 from game.world.plan import Plan
+from game.world.terrain import Terrain
 
 
 class VictimState(StrEnum):
@@ -55,13 +56,14 @@ class Guidance:
 class Observation:
     """The rescuer's observation o_t = FOV(s_t) with the instruction on screen (paper 5.1.3).
 
-    `plan` is the building's mini-map: walls and doors, no names, no victims. `visible` and
-    `explored` are masks over it (see `game.world.plan`); `explored` includes `visible`.
+    `terrain` is what the mini-map shows (walls and doors, no names, no victims) with all that
+    follows from it. `visible` and `explored` are masks over it (see `game.world.plan`);
+    `explored` includes `visible`.
     `remembered` are victims that were in view before and are not now, as they were last seen.
     `score` is None where the mission hides it.
     """
 
-    plan: Plan
+    terrain: Terrain
     visible: int
     explored: int
     victims: tuple[SeenVictim, ...]
@@ -76,3 +78,8 @@ class Observation:
     score: int | None
     ended: bool
     guidance: Guidance | None
+
+    @property
+    def plan(self) -> Plan:
+        """The mini-map."""
+        return self.terrain.plan

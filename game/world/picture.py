@@ -1,6 +1,6 @@
 """A building drawn with characters: the whole plan, room names, victims and start.
 
-The picture knows no terminal: it is rows of strokes, and whoever prints them chooses the colours.
+The picture does not depend on a terminal: it is rows of strokes, and the caller chooses colours.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from itertools import groupby
 
 from game.world.building import Building, Severity
 from game.world.geometry import Heading
-from game.world.labels import Scale, label_lines
+from game.world.labels import MapScale, label_lines
 from game.world.plan import Plan, Tile
 
 
@@ -29,7 +29,7 @@ class Ink(Enum):
 
 @dataclass(frozen=True)
 class Stroke:
-    """Characters in one ink on the paper of another."""
+    """Characters in one ink on paper of another."""
 
     text: str
     ink: Ink
@@ -55,7 +55,7 @@ LEGEND: Row = (
 )
 
 
-def picture(building: Building, scale: Scale) -> tuple[Row, ...]:
+def picture(building: Building, scale: MapScale) -> tuple[Row, ...]:
     """The building at `scale`, top row first, one stroke a terminal column.
 
     A name that does not fit its room is left out.
@@ -81,19 +81,19 @@ def picture(building: Building, scale: Scale) -> tuple[Row, ...]:
 
 
 def joined(row: Row) -> Row:
-    """The row with neighbouring strokes of the same ink and paper made one."""
+    """The row with neighbouring strokes of the same ink and paper merged."""
     runs = groupby(row, key=lambda stroke: (stroke.ink, stroke.paper))
     return tuple(
         Stroke("".join(stroke.text for stroke in run), ink, paper) for (ink, paper), run in runs
     )
 
 
-def _columns(plan: Plan, scale: Scale) -> int:
+def _columns(plan: Plan, scale: MapScale) -> int:
     return plan.width * scale.columns
 
 
-def _ground(plan: Plan, x: int, row: int, scale: Scale) -> Stroke:
-    """The cell, or the two cells one above the other, at column `x` of the plan."""
+def _ground(plan: Plan, x: int, row: int, scale: MapScale) -> Stroke:
+    """The cell, or the two cells above each other, at column `x` of the plan."""
     inks = [_TILE_INKS[plan.tile((x, row * scale.cells + below))] for below in range(scale.cells)]
     if scale.cells == 1 or inks[0] is inks[1]:
         return Stroke(_TILE_MARKS[inks[0]], inks[0])

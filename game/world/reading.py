@@ -1,7 +1,7 @@
 """The building format: a text file with a plan in text art and a legend.
 
-Reading goes in two steps: the text becomes a `Drawing`, line by line, and the drawing is surveyed
-as a building. Each step lists all it finds; the second is taken only if the first found nothing.
+Reading takes two steps: the text becomes a `Drawing`, line by line, and the drawing is checked as a
+building. Each step lists every problem it finds; the second runs only if the first found none.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def parse_building(text: str, source: str = "building") -> Building:
 def inspect_text(
     text: str, source: str = "building"
 ) -> tuple[Building | None, tuple[Problem, ...]]:
-    """The building that `text` describes, or None and all problems found, in file order."""
+    """The building that `text` describes, or None and every problem found, in file order."""
     sheet = _Sheet(text, source)
     drawing = sheet.drawing()
     if drawing is None:
@@ -63,7 +63,7 @@ def decode(data: bytes, source: str) -> str:
 
 
 class _Sheet:
-    """One pass over the lines of a building file, noting sections and problems as it goes."""
+    """One pass over the lines of a building file, collecting sections and problems."""
 
     def __init__(self, text: str, source: str) -> None:
         self.source = source
@@ -82,7 +82,7 @@ class _Sheet:
         self._read_legend(numbered)
 
     def drawing(self) -> Drawing | None:
-        """What the sheet draws; None if any problem was noted."""
+        """The drawing on the sheet; None if there was any problem."""
         if self.problems or self.name is None:
             return None
         marked: dict[str, list[Cell]] = {glyph: [] for glyph in self.meanings}
@@ -115,8 +115,8 @@ class _Sheet:
             self.legend_line,
         )
 
-    def _note(self, line: int, column: int, message: str, mend: str) -> None:
-        self.problems.append(Problem(self.source, line, column, message, mend))
+    def _note(self, line: int, column: int, message: str, hint: str) -> None:
+        self.problems.append(Problem(self.source, line, column, message, hint))
 
     def _read_header(self, numbered: Iterator[tuple[int, str]]) -> None:
         for number, line in numbered:
@@ -130,8 +130,8 @@ class _Sheet:
                 self._note(
                     number,
                     1,
-                    f"'{line[:30]}' is no header line",
-                    "Above the plan only 'name: ...', comments after ';' and 'plan:' may stand",
+                    f"'{line[:30]}' is not a header line",
+                    "Above the plan use only 'name: ...', 'plan:' and comments after ';'",
                 )
             elif self.name is not None:
                 self._note(number, 1, "the building has a second name", "Keep one 'name:' line")
@@ -141,7 +141,7 @@ class _Sheet:
                     self._note(number, 6, "the name is empty", "Write it after 'name:'")
         else:
             self._note(
-                len(self._lines), 1, "there is no plan", "Write 'plan:' on the line above it"
+                len(self._lines), 1, "there is no plan", "Write 'plan:' on the line above the plan"
             )
             return
         if self.name is None:
@@ -179,8 +179,8 @@ class _Sheet:
             self._note(
                 self.top_line,
                 1,
-                f"a plan of {width} x {len(self.rows)} cells holds nothing",
-                "Draw a floor with wall all round it",
+                f"a plan of {width} x {len(self.rows)} cells is too small",
+                "Draw a floor with wall all around it",
             )
         for y, row in enumerate(self.rows):
             if len(row) != width:
@@ -190,8 +190,8 @@ class _Sheet:
                     self.top_line + y,
                     min(len(row), width) + 1,
                     f"row {y + 1} of the plan is {off} {'cell' if off == 1 else 'cells'} "
-                    f"too {'short' if short else 'long'} ({len(row)}, the others {width})",
-                    "Give it the width of the others",
+                    f"too {'short' if short else 'long'} ({len(row)} instead of {width})",
+                    "Make it as wide as the other rows",
                 )
 
     def _read_legend(self, numbered: Iterator[tuple[int, str]]) -> None:
@@ -204,7 +204,7 @@ class _Sheet:
     def _read_entry(self, number: int, line: str) -> None:
         entry = _ENTRY.fullmatch(line)
         if entry is None:
-            self._note(number, 1, f"'{line[:30]}' is no legend line", "Write 'GLYPH = MEANING'")
+            self._note(number, 1, f"'{line[:30]}' is not a legend line", "Write 'GLYPH = MEANING'")
             return
         glyph, text = entry[1], entry[2]
         meaning = _MEANING.fullmatch(text)
@@ -218,19 +218,22 @@ class _Sheet:
                 number,
                 1,
                 f"'{glyph}' already has a meaning on line {known}",
-                "Choose another glyph, or remove one of the lines",
+                "Choose another glyph, or remove one of the two lines",
             )
         elif meaning is None:
             self._note(
-                number, entry.start(2) + 1, f"'{text[:30]}' is no meaning", f"Write {_MEANINGS}"
+                number,
+                entry.start(2) + 1,
+                f"'{text[:30]}' is not a valid meaning",
+                f"Write {_MEANINGS}",
             )
         else:
             self.meanings[glyph] = number, meaning
 
     def _check_glyphs(self) -> None:
-        """Every glyph of the plan has a meaning and every meaning is used.
+        """Every glyph in the plan has a meaning, and every meaning is used.
 
-        A glyph whose legend line is itself at fault is not reported a second time.
+        A glyph whose legend line is already reported is not reported again.
         """
         spoken_for = {line[0] for line in self._lines[self.legend_line :] if line}
         unknown: dict[str, tuple[int, int]] = {}
@@ -241,17 +244,17 @@ class _Sheet:
         for glyph, (number, column) in unknown.items():
             if glyph.isspace():
                 what = "tab" if glyph == "\t" else "blank"
-                mend = "Draw '#' for wall or '.' for floor"
-                self._note(number, column, f"there is a {what} inside the plan", mend)
+                hint = "Draw '#' for wall or '.' for floor"
+                self._note(number, column, f"there is a {what} inside the plan", hint)
             else:
-                mend = f"Add '{glyph} = ...' to the legend, or draw '#', '.' or '+'"
-                self._note(number, column, f"'{glyph}' is not in the legend", mend)
+                hint = f"Add '{glyph} = ...' to the legend, or draw '#', '.' or '+'"
+                self._note(number, column, f"'{glyph}' is not in the legend", hint)
         drawn = set("".join(self.rows))
         for glyph, (number, _) in self.meanings.items():
             if glyph not in drawn:
                 self._note(
                     number,
                     1,
-                    f"'{glyph}' does not stand in the plan",
+                    f"'{glyph}' is not in the plan",
                     "Draw it on a floor cell, or remove this line",
                 )

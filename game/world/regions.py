@@ -1,4 +1,4 @@
-"""What a plan encloses: its doorways, and the floor regions that walls and doors close off."""
+"""The doorways of a plan, and the floor regions that its walls and doors enclose."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def floor_regions(plan: Plan) -> tuple[Region, ...]:
 
 
 def doorways(plan: Plan) -> tuple[Door, ...]:
-    """Every group of side-by-side door cells, in row order of their first cells."""
+    """Every group of adjacent door cells, in row order of their first cells."""
     return tuple(Door(cells) for cells in _connected(plan, _mask_of(plan, Tile.DOOR)))
 
 
 def reachable(plan: Plan, start: Cell) -> frozenset[Cell]:
-    """Every cell that can be walked to from `start`, which must be walkable."""
+    """Every cell that can be reached from `start`, which must be walkable."""
     return frozenset(plan.cells(_spread(plan, plan.mask([start]), plan.walkable_mask)))
 
 
@@ -38,9 +38,9 @@ def doors_of(region: Iterable[Cell], doors: tuple[Door, ...]) -> tuple[int, ...]
 
 
 def label_cell(region: Region) -> Cell:
-    """The cell of `region` nearest its centroid; of several, the first row by row.
+    """The cell of `region` nearest its centroid; the first of several, row by row.
 
-    Distances are compared as integers (scaled by the number of cells), so nothing is rounded.
+    Distances are compared as integers (scaled by the number of cells), without rounding.
     """
     count = len(region)
     sum_x, sum_y = sum(x for x, _ in region), sum(y for _, y in region)
@@ -52,7 +52,7 @@ def label_cell(region: Region) -> Cell:
 
 
 def _mask_of(plan: Plan, tile: Tile) -> int:
-    """The mask of the cells made of `tile`."""
+    """The mask of the cells that are `tile`."""
     digits = bytes(b"01"[value == tile] for value in range(256))
     return int(plan.tiles[::-1].translate(digits), 2)
 

@@ -25,6 +25,12 @@ class Terrain:
         self._sights: dict[int, Sight] = {}
         self._shared: dict[Hashable, Any] = {}
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Terrain) and self.plan == other.plan
+
+    def __hash__(self) -> int:
+        return hash(self.plan)
+
     def sight(self, radius: int) -> Sight:
         """The fields of view of `radius` cells."""
         if radius not in self._sights:

@@ -1,4 +1,4 @@
-"""A building as text in the building format, the inverse of reading it."""
+"""A building as text in the building format: the inverse of reading."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _WALL_FLOOR_DOOR = {tile: glyph for glyph, tile in TILE_GLYPHS.items()}
 
 
 def render_building(building: Building) -> str:
-    """The text of a building, such that reading it gives an equal building but for `text`.
+    """The text of a building; reading it gives an equal building, except for `text`.
 
-    Raises ValueError for more rooms than there are glyphs, or a room without a free cell to mark.
+    Raises ValueError if there are more rooms than glyphs, or if a room has no free cell for one.
     """
     if len(building.rooms) > len(_ROOM_GLYPHS):
         raise ValueError(f"{len(building.rooms)} rooms, but only {len(_ROOM_GLYPHS)} glyphs")

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.longcsv import read_long_csv
 
 GROUPS = ("LOW", "MED", "HIGH")
@@ -17,7 +17,7 @@ ITEMS = ("pref1", "pref2", "pref3", "pref4")
 
 Sizes = Mapping[tuple[str, str], int]
 MakeTable = Callable[..., pd.DataFrame]
-ReadTable = Callable[..., Study]
+ReadTable = Callable[..., StudyData]
 
 
 def unequal_sizes() -> dict[tuple[str, str], int]:
@@ -67,7 +67,7 @@ def make_table() -> MakeTable:
 def read_table(tmp_path: Path) -> ReadTable:
     """Writes a long table (and quiz scores by participant) to CSV and reads it back as a study."""
 
-    def read(table: pd.DataFrame, quiz: Mapping[str, float] | None = None) -> Study:
+    def read(table: pd.DataFrame, quiz: Mapping[str, float] | None = None) -> StudyData:
         source = tmp_path / "long.csv"
         table.to_csv(source, index=False)
         scores = None
@@ -82,7 +82,7 @@ def read_table(tmp_path: Path) -> ReadTable:
 
 
 @pytest.fixture(scope="session")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
+def study(tmp_path_factory: pytest.TempPathFactory) -> StudyData:
     source = tmp_path_factory.mktemp("made_up") / "long.csv"
     made_up_table().drop(columns="disobeyed").to_csv(source, index=False)
     return read_long_csv(source)

@@ -13,11 +13,11 @@ import pytest
 from analysis.battery import BatteryResult, analyse_source, run_battery
 from analysis.pages.figures import fig8_performance
 from analysis.sources.absent import Absent, SourceError, plain
-from analysis.sources.exclusions import load_rules
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES, OUTCOMES
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
+from game.tables.exclusions import read_rules
 
-ReadTable = Callable[..., Study]
+ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
 Battery = Callable[..., tuple[BatteryResult, Any]]
 
@@ -31,7 +31,7 @@ def battery(read_table: ReadTable) -> Battery:
     def run(table: pd.DataFrame, **more: object) -> tuple[BatteryResult, Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("error", RuntimeWarning)
-            result = run_battery(read_table(table, **more), load_rules())
+            result = run_battery(read_table(table, **more), read_rules())
         return result, json.loads(result.to_json())
 
     return run

@@ -1,4 +1,4 @@
-"""How hard the shipped missions are (design 4): `python -m tests.bench.difficulty`.
+"""How hard the shipped missions are: `python -m tests.bench.difficulty`.
 
 A perfect follower, a well-prepared person (who knows every room) and an unprepared one (who knows
 none) with the same instructor, in both buildings: rescues of 20, mean and 95% interval of the mean.

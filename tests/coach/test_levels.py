@@ -14,7 +14,7 @@ from game.coach.acts import Level
 from game.coach.levels import LevelState
 from game.coach.presets import CALIBRATED, FIG10, LITERAL, PRESETS, RELEASED, Preset, preset
 
-VECTORS = Path(__file__).resolve().parents[2].parent / "shared" / "vectors" / "goal_inference.json"
+VECTORS = Path(__file__).resolve().parents[1] / "reference" / "goal_inference.json"
 LEVELS = st.sampled_from(Level)
 PROBABILITIES = st.floats(0, 1).filter(lambda p: min(abs(p - 0.3), abs(p - 0.8)) > 1e-9)
 
@@ -25,7 +25,6 @@ def stepped(level: Level, comprehension: float, low: float = 0.3, high: float = 
     return LevelState(level).evaluated(rule, comprehension).level
 
 
-@pytest.mark.skipif(not VECTORS.exists(), reason="no shared vectors here")
 def test_algorithm_1_on_the_worked_case() -> None:
     case = json.loads(VECTORS.read_text())["level_case"]
     level, levels = Level(case["start"]), []

@@ -25,7 +25,7 @@ from game.world.settings import MissionSettings
 SETTINGS = MissionSettings()
 PACE = SETTINGS.pace_ms
 SHIPPED = ("foundry", "harbour", "practice")
-PEER_MAPS = Path(__file__).resolve().parents[2].parent / "shared" / "peer-maps"
+REFERENCE = Path(__file__).resolve().parents[1] / "reference"
 
 
 @cache
@@ -186,11 +186,10 @@ def test_the_route_saves_more_than_going_to_the_nearest(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not PEER_MAPS.exists(), reason="the shared folder is not here")
-def test_on_the_maps_of_peers_the_route_saves_more_on_average() -> None:
+def test_on_imported_grids_the_route_saves_more_on_average() -> None:
     routed = nearest = 0
-    for number in (1, 2):
-        name = str(PEER_MAPS / f"building-{number}.csv")
+    for grid in ("annexe", "terraces"):
+        name = str(REFERENCE / f"{grid}.csv")
         routed += len(follow(name, "route"))
         nearest += len(follow(name, "nearest"))
     assert routed > nearest

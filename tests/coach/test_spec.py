@@ -41,7 +41,7 @@ def test_names_are_parsed_with_the_usual_choices() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "mend"),
+    ("arguments", "hint"),
     [
         (("sttic",), "Did you mean static?"),
         (("ana", None, "calibratd"), "Did you mean calibrated?"),
@@ -51,7 +51,7 @@ def test_names_are_parsed_with_the_usual_choices() -> None:
     ],
 )
 def test_a_wrong_name_is_met_by_the_right_one(
-    arguments: tuple[str, int | None, str | None], mend: str
+    arguments: tuple[str, int | None, str | None], hint: str
 ) -> None:
-    with pytest.raises(AnaError, match=mend.replace("?", r"\?")):
+    with pytest.raises(AnaError, match=hint.replace("?", r"\?")):
         parse_coach(*arguments)

@@ -1,6 +1,6 @@
-"""Writes the golden journals of the present schema: `python -m tests.session.golden`.
+"""Writes the golden journals of the present schema: `python -m tests.journal.golden`.
 
-Once a schema has been released its golden journals are never written again.
+Once a schema has been released, its golden journals are never written again.
 """
 
 from pathlib import Path
@@ -20,7 +20,7 @@ FOLDER = Path(__file__).resolve().parents[1] / "data" / "journals"
 
 
 def every_record() -> bytes:
-    """A journal, of no possible session, with one record of each kind."""
+    """A journal of an impossible session, with one record of each kind."""
     sink, clock = MemorySink(), VirtualClock()
     journal = Journal(sink, clock)
     journal.append(opening())

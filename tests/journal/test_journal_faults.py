@@ -75,7 +75,7 @@ def test_a_full_disk_stops_the_mission_and_loses_nothing_painted(tmp_path: Path,
         (errno.EIO, r"cannot be written \(Input/output error\)"),
     ],
 )
-def test_a_failing_write_names_the_file_and_the_mend(
+def test_a_failing_write_names_the_file_and_a_hint(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int, says: str
 ) -> None:
     path = tmp_path / "journal.jsonl"
@@ -85,7 +85,7 @@ def test_a_failing_write_names_the_file_and_the_mend(
         journal.append(Paused(1))
 
 
-def test_a_failing_disk_is_told_at_the_next_record(
+def test_a_failing_disk_raises_an_error_at_the_next_record(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sink_module, "SYNC_AFTER_S", 0.01)
@@ -104,22 +104,22 @@ def test_a_failing_disk_is_told_at_the_next_record(
 
 
 @pytest.mark.parametrize("code", [errno.EACCES, errno.EROFS])
-def test_an_unwritable_folder_is_told_before_the_mission(
+def test_an_unwritable_folder_is_reported_before_the_mission(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
 ) -> None:
     monkeypatch.setattr(os, "open", failing(code))
-    with pytest.raises(JournalError, match=r"may not be written here .*choose another: --log DIR"):
+    with pytest.raises(JournalError, match=r"no permission to write .*choose another: --log DIR"):
         start_free_play(HUT, SETTINGS, SPEC, 7, tmp_path, None, build=toy)
 
 
-def test_so_is_a_file_where_a_folder_should_be(tmp_path: Path) -> None:
+def test_a_file_in_place_of_a_folder_is_reported_before_the_mission(tmp_path: Path) -> None:
     blocked = tmp_path / "log"
     blocked.write_text("no folder")
     with pytest.raises(JournalError, match="choose another: --log DIR"):
         start_free_play(HUT, SETTINGS, SPEC, 7, blocked, None, build=toy)
 
 
-def test_a_refused_journal_is_let_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_refused_journal_is_released(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "journal.jsonl"
     with monkeypatch.context() as patch:
         patch.setattr(os, "write", failing(errno.ENOSPC))
@@ -155,7 +155,7 @@ for number in range(250_000):
 
 
 def killed_after(path: Path, seed: int, wait_s: float) -> int:
-    """Let a process play as fast as it can, kill it, and count the actions it says were kept."""
+    """Let a process play as fast as it can, kill it, and count the actions it acknowledged."""
     command = [sys.executable, "-c", PLAYER, str(path), str(seed)]
     acknowledged = 0
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as process:
@@ -192,5 +192,5 @@ def test_what_was_acknowledged_before_a_kill_is_in_the_journal(tmp_path: Path) -
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
-def test_so_it_is_at_two_hundred_moments(tmp_path: Path, seed: int) -> None:
+def test_what_was_acknowledged_is_kept_at_two_hundred_moments(tmp_path: Path, seed: int) -> None:
     check_kills(tmp_path, seed=100 * seed, kills=20)

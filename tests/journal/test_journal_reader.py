@@ -1,4 +1,4 @@
-"""Reading a journal: strict, but for what a crash leaves; and any beginning of one is readable."""
+"""Reading a journal: strict, except about what a crash leaves; any beginning of one is readable."""
 
 import json
 from pathlib import Path
@@ -54,7 +54,7 @@ def test_any_beginning_of_a_journal_is_readable_and_can_be_resumed(
     data = MISSION[:cut]
     whole = data.count(b"\n")
     if whole == 0:
-        with pytest.raises(JournalError, match="holds no record"):
+        with pytest.raises(JournalError, match="has no records"):
             transcript(data)
         return
     read = transcript(data)
@@ -77,7 +77,7 @@ def test_any_beginning_of_a_journal_is_readable_and_can_be_resumed(
     assert verify_transcript(again, build=toy).reproduced
 
 
-def test_so_is_any_beginning_of_a_journal_that_was_resumed(tmp_path: Path) -> None:
+def test_any_beginning_of_a_resumed_journal_is_readable_too(tmp_path: Path) -> None:
     data = resumed_after(MISSION[:-40], tmp_path)
     whole = transcript(data).entries
     for cut in (*range(len(LINES[0]), len(data), 31), *range(len(data) - 700, len(data) + 1)):
@@ -91,7 +91,7 @@ def test_so_is_any_beginning_of_a_journal_that_was_resumed(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("data", [b"", b"\n", b"seq,segment\n0,0\n", b"\x00" * 64, b"{}", b"[1]"])
-def test_what_is_no_journal_is_refused(data: bytes) -> None:
+def test_a_file_that_is_not_a_journal_is_refused(data: bytes) -> None:
     with pytest.raises(JournalError, match="journal"):
         transcript(data)
 
@@ -124,21 +124,21 @@ def test_a_record_of_another_form_is_refused(fields: dict[str, Any], complaint: 
         transcript(edited(5, **fields))
 
 
-def test_a_journal_of_a_newer_game_is_refused_with_the_mend() -> None:
+def test_a_journal_of_a_newer_game_is_refused_with_a_hint() -> None:
     versions = json.loads(LINES[0])["versions"] | {"schema": SCHEMA_VERSION + 1}
     newer = edited(1, versions=versions, novelty=1, mode="unheard of")
-    with pytest.raises(JournalError, match=r"has schema 2.*up to 1.*Install the newer game"):
+    with pytest.raises(JournalError, match=r"has schema 2.*up to 1.*Install the version of ana"):
         transcript(newer)
 
 
 def test_a_journal_of_an_unknown_schema_is_refused() -> None:
     versions = json.loads(LINES[0])["versions"] | {"schema": 0}
-    with pytest.raises(JournalError, match="there never was a schema 0"):
+    with pytest.raises(JournalError, match="there is no schema 0"):
         transcript(edited(1, versions=versions))
 
 
 def as_of_old(line: bytes) -> dict[str, Any]:
-    """The line as an imagined schema 0 would have had it: `time` for `at_ms`."""
+    """The line in an imagined schema 0, which has `time` for `at_ms`."""
     fields: dict[str, Any] = json.loads(line)
     if "versions" in fields:
         fields["versions"]["schema"] = 0
@@ -195,7 +195,7 @@ def test_lost_and_gained_lines_are_noticed(
         read_journal(path)
 
 
-def test_a_journal_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_a_missing_journal_is_named(tmp_path: Path) -> None:
     for path in (tmp_path / "none.jsonl", tmp_path):
         with pytest.raises(JournalError, match="cannot be read"):
             read_journal(path)

@@ -1,4 +1,4 @@
-"""The shipped schema is that of the types, and golden journals satisfy it and are read."""
+"""The shipped schema matches the types; golden journals satisfy it and can be read."""
 
 import json
 from pathlib import Path
@@ -33,7 +33,7 @@ def test_the_shipped_schema_is_current() -> None:
     assert shipped == schema_text(), "run `make schema`"
 
 
-def test_the_schema_is_one() -> None:
+def test_the_schema_is_a_valid_json_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(journal_schema())
 
 
@@ -55,7 +55,7 @@ def test_the_golden_journals_satisfy_it(name: str) -> None:
         {"position": [1, 2, 3]},
     ],
 )
-def test_a_spoilt_line_does_not(spoil: dict[str, Any]) -> None:
+def test_a_spoilt_line_does_not_satisfy_it(spoil: dict[str, Any]) -> None:
     acted = next(
         line for line in lines(GOLDEN / "schema-1-mission.jsonl") if line["type"] == "acted"
     )
@@ -66,7 +66,7 @@ def test_a_spoilt_line_does_not(spoil: dict[str, Any]) -> None:
         assert not check.is_valid({name: acted[name] for name in acted if name != field})
 
 
-def test_every_schema_that_ever_was_has_golden_journals_that_are_read() -> None:
+def test_golden_journals_of_every_schema_version_are_read() -> None:
     for schema in range(1, SCHEMA_VERSION + 1):
         paths = sorted(GOLDEN.glob(f"schema-{schema}-*.jsonl"))
         assert paths
@@ -97,7 +97,7 @@ def test_no_record_has_a_field_of_the_envelope(kind: type[msgspec.Struct]) -> No
     assert "type" not in kind.__struct_fields__
 
 
-def test_no_two_records_have_one_name() -> None:
+def test_no_two_records_share_a_name() -> None:
     names = [kind.__struct_config__.tag for kind in KINDS]
     assert len(set(names)) == len(names)
 

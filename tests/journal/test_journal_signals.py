@@ -1,4 +1,4 @@
-"""Signals that break into the writing of a journal, at every moment of it."""
+"""Signals that arrive while a journal is being written, at every possible moment."""
 
 import sys
 import threading
@@ -25,7 +25,7 @@ ENDED = Interruption("signal", signal="SIGTERM")
 
 
 class InterruptedSink(MemorySink):
-    """Each of its next writes is broken into by a handler, when half of its lines are there."""
+    """Each of its next writes is interrupted by a handler, after half of its bytes."""
 
     def __init__(self, *handlers: Callable[[], None]) -> None:
         super().__init__()
@@ -40,14 +40,14 @@ class InterruptedSink(MemorySink):
 
 
 class RefusingSink(MemorySink):
-    """Takes nothing."""
+    """Refuses everything."""
 
     def write(self, lines: bytes) -> None:
         raise JournalError("the disk is full")
 
 
 def records(data: bytes | bytearray) -> list[Record]:
-    """What was recorded after the first record, in whole lines and unbroken order."""
+    """The records after the first, checked to be whole lines in unbroken order."""
     transcript = parse_journal(bytes(data), "")
     assert transcript.torn_bytes == 0
     assert first_discontinuity(transcript.entries) is None
@@ -61,7 +61,7 @@ def begun() -> tuple[Journal, InterruptedSink]:
     return journal, sink
 
 
-def test_what_breaks_into_a_write_stands_right_after_it() -> None:
+def test_a_signal_during_a_write_is_recorded_right_after_it() -> None:
     journal, sink = begun()
     sink.handlers = [lambda: journal.interrupt("SIGHUP")]
     journal.extend((Paused(1), Unpaused(2)))
@@ -70,7 +70,7 @@ def test_what_breaks_into_a_write_stands_right_after_it() -> None:
     assert records(sink.data)[3:] == [Paused(3)]
 
 
-def test_so_does_what_breaks_into_the_writing_of_a_signal() -> None:
+def test_a_signal_during_the_writing_of_a_signal_is_too() -> None:
     journal, sink = begun()
     sink.handlers = [lambda: journal.interrupt("SIGHUP"), lambda: journal.interrupt("SIGTERM")]
     journal.append(Paused(1))
@@ -83,7 +83,7 @@ def test_between_two_writes_a_signal_is_written_at_once() -> None:
     assert records(sink.data) == [ENDED]
 
 
-def test_what_breaks_in_is_waited_for_on_the_disk_as_well() -> None:
+def test_a_record_that_comes_during_a_write_awaits_the_disk_too() -> None:
     journal, sink = begun()
     answer = QuizAnswer("Stube", "Küche", correct=False, response_ms=900)
     sink.handlers = [lambda: journal.append(answer)]
@@ -125,7 +125,7 @@ def test_a_refused_record_is_followed_by_nothing() -> None:
         journal.interrupt("SIGHUP")
 
 
-def test_nothing_is_written_to_what_is_being_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_written_to_a_journal_that_is_closing(monkeypatch: pytest.MonkeyPatch) -> None:
     journal, sink = begun()
     monkeypatch.setattr(sink, "close", lambda: journal.interrupt("SIGHUP"))
     journal.close()
@@ -134,8 +134,8 @@ def test_nothing_is_written_to_what_is_being_closed(monkeypatch: pytest.MonkeyPa
 
 @contextmanager
 def breaking_in(handlers: dict[int, Callable[[], None]]) -> Iterator[list[CodeType]]:
-    """Run each handler before the n-th instruction that the journal carries out in here, as Python
-    runs those of signals. Yields one item for each instruction, in the end."""
+    """Run each handler before the n-th instruction of the journal's code in this context, as Python
+    runs signal handlers. Yields a list that holds one item per instruction at the end."""
     instructions: list[CodeType] = []
 
     def trace(frame: FrameType, event: str, _: Any) -> Any:
@@ -158,7 +158,7 @@ def breaking_in(handlers: dict[int, Callable[[], None]]) -> Iterator[list[CodeTy
 
 
 def written(*moments: int) -> tuple[list[Record], int]:
-    """The records of one append that signals break into, and of how many instructions it is."""
+    """The records of one append interrupted by signals, and its number of instructions."""
     journal, sink = begun()
     names = iter(("SIGHUP", "SIGTERM"))
     handlers = {moment: lambda: journal.interrupt(next(names)) for moment in moments}
@@ -192,10 +192,10 @@ def pairs_of_moments() -> list[tuple[int, int]]:
     return list(combinations(range(instructions), 2))
 
 
-def test_so_are_two_signals_in_their_order() -> None:
+def test_two_signals_are_recorded_in_their_order() -> None:
     check_pairs(Random(1).sample(pairs_of_moments(), 400))
 
 
 @pytest.mark.slow
-def test_so_are_they_at_any_two_moments() -> None:
+def test_two_signals_at_any_two_moments_are_recorded() -> None:
     check_pairs(pairs_of_moments())

@@ -1,4 +1,4 @@
-"""Writing a journal: what is on the disk, when, and for whom."""
+"""Writing a journal: what is on disk, when, and who can read it."""
 
 import fcntl
 import os
@@ -58,7 +58,7 @@ def test_free_play_gets_a_folder_of_its_own_that_others_cannot_read(tmp_path: Pa
         assert stat.S_IMODE(made.stat().st_mode) == 0o700
 
 
-def test_the_first_records_say_all_that_determines_the_mission(tmp_path: Path) -> None:
+def test_the_first_records_hold_everything_that_determines_the_mission(tmp_path: Path) -> None:
     _, journal, path = free_play(tmp_path)
     journal.close()
     started, mission = (entry.record for entry in read_journal(path).entries[:2])
@@ -73,7 +73,7 @@ def test_the_first_records_say_all_that_determines_the_mission(tmp_path: Path) -
     assert (mission.coach, mission.preset, mission.settings) == (SPEC, None, SETTINGS)
 
 
-def test_an_action_is_with_the_operating_system_when_the_key_has_been_handled(
+def test_the_operating_system_has_an_action_once_its_key_is_handled(
     tmp_path: Path,
 ) -> None:
     run, journal, path = free_play(tmp_path)
@@ -84,7 +84,7 @@ def test_an_action_is_with_the_operating_system_when_the_key_has_been_handled(
     journal.close()
 
 
-def test_the_disk_is_asked_within_a_second_off_this_thread(
+def test_another_thread_syncs_the_disk_within_a_second(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     synced = threading.Event()
@@ -132,7 +132,7 @@ def test_a_rescue_waits_for_the_disk_and_a_step_does_not(tmp_path: Path) -> None
     journal.close()
 
 
-def test_ending_records_how(tmp_path: Path) -> None:
+def test_the_end_of_a_session_records_its_reason(tmp_path: Path) -> None:
     run, journal, path = free_play(tmp_path)
     run.press(Action.EAST, 100)
     journal.append(Paused(150))
@@ -153,7 +153,7 @@ def test_a_mission_played_to_its_end_is_finished(tmp_path: Path) -> None:
     assert verify(path, build=toy).reproduced
 
 
-def test_nobody_writes_a_journal_that_another_is_writing(tmp_path: Path) -> None:
+def test_two_processes_cannot_write_one_journal(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     journal = Journal.create(path, opening())
     with pytest.raises(JournalError, match="another process is writing this journal"):
@@ -162,23 +162,23 @@ def test_nobody_writes_a_journal_that_another_is_writing(tmp_path: Path) -> None
     Journal.resume(path, None).close()
 
 
-def test_a_journal_is_begun_once(tmp_path: Path) -> None:
+def test_a_journal_is_never_begun_twice(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     Journal.create(path, opening()).close()
-    with pytest.raises(JournalError, match="there is a journal already"):
+    with pytest.raises(JournalError, match="there is already a journal"):
         Journal.create(path, opening())
     with path.open("rb") as file:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def test_a_file_without_one_finished_line_is_begun_anew(tmp_path: Path) -> None:
+def test_a_file_without_a_complete_line_is_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     path.write_bytes(b'{"seq":0,"segm')
     Journal.create(path, opening()).close()
     assert [entry.record for entry in read_journal(path).entries] == [opening()]
 
 
-def test_resuming_goes_on_where_it_broke_off(tmp_path: Path) -> None:
+def test_resuming_continues_where_the_session_broke_off(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     journal = Journal.create(path, opening())
     journal.enter("label", 2)
@@ -199,7 +199,7 @@ def test_resuming_goes_on_where_it_broke_off(tmp_path: Path) -> None:
     assert resumed.envelope.t_ms < 1_000
 
 
-def test_what_is_not_there_is_not_resumed(tmp_path: Path) -> None:
+def test_a_missing_journal_cannot_be_resumed(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     with pytest.raises(JournalError, match="No such file"):
         Journal.resume(path, None)
@@ -229,7 +229,7 @@ def test_sleep_of_the_machine_is_recorded_between_two_records(tmp_path: Path) ->
     assert records == [slept, Paused(1_000), Unpaused(1_000)]
 
 
-def test_steady_time_goes_on_when_the_wall_clock_is_set_back(tmp_path: Path) -> None:
+def test_steady_time_continues_when_the_wall_clock_is_set_back(tmp_path: Path) -> None:
     clock = FakeClock()
     path = tmp_path / "journal.jsonl"
     journal = Journal.create(path, opening(), clock)
@@ -258,7 +258,7 @@ def test_a_simulated_session_is_the_same_journal_written_at_once(
         journal.close()
     assert paths[0].read_bytes() == paths[1].read_bytes() == played()
     assert len(synced) == 2 * len(paths), "one for the file and one for its name"
-    with pytest.raises(JournalError, match="there is a journal already"):
+    with pytest.raises(JournalError, match="there is already a journal"):
         Journal.buffered(paths[0], opening(), VirtualClock()).close()
 
 

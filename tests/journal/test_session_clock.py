@@ -1,4 +1,4 @@
-"""The mission's clock, and what the two clocks of a machine tell of it."""
+"""The mission's clock, and what a machine's two clocks say about sleep and changes of time."""
 
 import time
 
@@ -9,7 +9,7 @@ from game.journal.records import Interruption
 from game.journal.writer import interruption, utc_text
 
 
-def test_mission_time_counts_from_the_start_and_stands_still_in_a_pause() -> None:
+def test_mission_time_counts_from_the_start_and_stops_in_a_pause() -> None:
     clock = VirtualClock(5_000)
     mission = MissionClock(clock)
     clock.now_ms = 6_000

@@ -299,7 +299,9 @@ def test_the_search_goes_to_every_room_before_it_gives_up() -> None:
     memory = nothing_memorised(HARBOUR)
     tried: set[tuple[int, int]] = set()
     while True:
-        guess = memory.next_guess(HARBOUR.plan, "Archive", HARBOUR.start, frozenset(tried))
+        guess = memory.next_guess(
+            HARBOUR.terrain.floodfills, "Archive", HARBOUR.start, frozenset(tried)
+        )
         if guess is None:
             break
         assert guess not in tried
@@ -310,7 +312,10 @@ def test_the_search_goes_to_every_room_before_it_gives_up() -> None:
 def test_a_hunch_draws_the_search() -> None:
     archive = HARBOUR.room("Archive").label
     memory = MapMemory(tuple(room.label for room in HARBOUR.rooms), {}, {"Archive": archive})
-    assert memory.next_guess(HARBOUR.plan, "Archive", HARBOUR.start, frozenset()) == archive
+    assert (
+        memory.next_guess(HARBOUR.terrain.floodfills, "Archive", HARBOUR.start, frozenset())
+        == archive
+    )
 
 
 @given(seed=st.integers(0, 10_000), memorise_ms=st.integers(0, 180_000))

@@ -25,9 +25,9 @@ MISSTEP = {Level.C1: 1, Level.C2: 3, Level.C3: 8}
 
 LONGEST_WALK = 1_000
 
-SHARED = Path(__file__).resolve().parents[2].parent / "shared"
-PEER_MAPS = tuple(str(path) for path in sorted((SHARED / "peer-maps").glob("*.csv")))
-BUILDINGS = (*shipped_buildings(), *PEER_MAPS)
+REFERENCE = Path(__file__).resolve().parents[1] / "reference"
+GRIDS = tuple(str(REFERENCE / name) for name in ("annexe.csv", "terraces.csv"))
+BUILDINGS = (*shipped_buildings(), *GRIDS)
 
 
 @dataclass(frozen=True)

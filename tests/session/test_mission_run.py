@@ -1,4 +1,4 @@
-"""A mission and a coach together: pacing, the order of records, and that ticks change nothing."""
+"""A mission with its coach: pacing, the order of records, and ticks that change nothing."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -39,7 +39,7 @@ def test_the_first_move_is_made_at_once_and_the_next_waits_for_the_pace() -> Non
     assert acts(records) == [(100, 100, Action.NORTH), (300, 150, Action.EAST)]
 
 
-def test_a_newer_key_replaces_the_one_that_waits() -> None:
+def test_a_newer_key_replaces_the_waiting_one() -> None:
     run, records = begun()
     for at_ms, action in ((0, Action.NORTH), (50, Action.EAST), (90, Action.SOUTH)):
         run.press(action, at_ms)
@@ -54,7 +54,7 @@ def test_triage_is_not_paced() -> None:
     assert acts(records)[-1] == (10, 10, Action.TRIAGE)
 
 
-def test_a_held_key_walks_at_the_pace_and_stops_within_a_move_of_its_release() -> None:
+def test_a_held_key_walks_at_the_pace_and_stops_within_one_move() -> None:
     run, records = begun()
     for at_ms in range(0, 1_000, 30):
         run.press(Action.EAST, at_ms)
@@ -63,7 +63,7 @@ def test_a_held_key_walks_at_the_pace_and_stops_within_a_move_of_its_release() -
     assert times == [0, 200, 400, 600, 800, 1_000]
 
 
-def test_what_is_due_at_one_time_comes_in_the_order_of_the_design() -> None:
+def test_things_due_at_the_same_time_happen_in_a_fixed_order() -> None:
     settings = MissionSettings(duration_ms=3_500, red_expiry_ms=3_500, treat_blue_ms=3_500)
     run, records = begun(settings)
     run.press(Action.TRIAGE, 0)
@@ -87,7 +87,7 @@ def test_each_call_records_once_and_before_it_returns() -> None:
     ]
 
 
-def test_what_recording_raises_reaches_the_caller() -> None:
+def test_an_error_while_recording_reaches_the_caller() -> None:
     def full(_: Sequence[RunRecord]) -> None:
         raise OSError("full")
 

@@ -31,7 +31,7 @@ SPECS = (
 def wandered(
     spec: CoachSpec, controls: Controls, seconds: int, building: str
 ) -> tuple[bytes, list[tuple[int, Observation]]]:
-    """The journal of an aimless walk, and what was seen now and then on it."""
+    """The journal of an aimless walk, and what was seen at some moments of it."""
     random = Random(f"{spec} {controls}")
     settings = MissionSettings(
         duration_ms=1_000 * seconds, red_expiry_ms=700 * seconds, controls=controls
@@ -72,6 +72,8 @@ def test_a_walk_is_reproduced_and_replayed(spec: CoachSpec, controls: Controls) 
 @pytest.mark.parametrize("building", library.shipped_buildings())
 @pytest.mark.parametrize("controls", get_args(Controls))
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: f"{spec.kind}-{spec.preset or spec.level}")
-def test_so_are_whole_missions(spec: CoachSpec, controls: Controls, building: str) -> None:
+def test_whole_missions_are_reproduced_and_replayed(
+    spec: CoachSpec, controls: Controls, building: str
+) -> None:
     data, _ = wandered(spec, controls, 240, building)
     assert verify_transcript(transcript(data)).difference is None

@@ -1,4 +1,4 @@
-"""A replay shows at every moment what was there when the mission was played."""
+"""A replay shows, at every moment, what there was when the mission was played."""
 
 import json
 
@@ -22,7 +22,7 @@ END = SETTINGS.duration_ms
 
 
 def live(until_ms: int) -> tuple[Observation, list[RunRecord]]:
-    """What the player saw at `until_ms`, and all that had happened."""
+    """What the player saw at `until_ms`, and everything that had happened."""
     records: list[RunRecord] = []
     run: MissionRun = assemble(HUT, SETTINGS, SPEC, 7, records.extend, build=toy)
     run.begin()
@@ -37,7 +37,7 @@ def live(until_ms: int) -> tuple[Observation, list[RunRecord]]:
 
 
 @given(moments=st.lists(st.integers(-500, END + 500), min_size=1, max_size=12))
-def test_any_way_to_a_moment_shows_the_same(moments: list[int]) -> None:
+def test_a_moment_looks_the_same_however_it_is_reached(moments: list[int]) -> None:
     replay = Replay(transcript(MISSION))
     for moment in moments:
         replay.seek(moment)
@@ -88,7 +88,7 @@ def test_an_unfinished_mission_is_replayed_as_far_as_it_goes() -> None:
     assert len(replay.records) == 18
 
 
-def test_a_journal_without_a_mission_is_told_so() -> None:
+def test_a_journal_without_a_mission_is_refused() -> None:
     first = MISSION.splitlines(keepends=True)[0]
     with pytest.raises(JournalError, match="there is no mission 1: the journal holds 0"):
         Replay(transcript(first))
@@ -96,7 +96,7 @@ def test_a_journal_without_a_mission_is_told_so() -> None:
         Replay(transcript(MISSION), 1)
 
 
-def test_an_action_that_cannot_be_is_named() -> None:
+def test_an_impossible_action_is_named() -> None:
     edited = MISSION.replace(b'"action":"north"', b'"action":"forward"', 1)
     line = next(
         entry.line

@@ -1,4 +1,4 @@
-"""Verification: every journal reproduces, and no change of one goes unnoticed."""
+"""Verification: every journal reproduces, and no change to one goes unnoticed."""
 
 import json
 from pathlib import Path
@@ -31,7 +31,7 @@ def edited(line: int, **fields: Any) -> bytes:
 
 
 def renumbered(lines: list[bytes]) -> bytes:
-    """Lines whose `seq` a forger has mended."""
+    """Lines whose `seq` a forger has patched."""
     return b"".join(
         json.dumps(json.loads(line) | {"seq": seq}).encode() + b"\n"
         for seq, line in enumerate(lines)
@@ -71,13 +71,13 @@ def test_what_was_played_is_reproduced(
 
 
 @given(pressed=keys(TURN))
-def test_so_it_is_under_turn_controls(pressed: list[tuple[int, Action]]) -> None:
+def test_play_under_turn_controls_is_reproduced(pressed: list[tuple[int, Action]]) -> None:
     settings = MissionSettings(duration_ms=15_000, red_expiry_ms=9_000, controls="turn")
     assert verified(played(pressed, settings)).reproduced
 
 
 @pytest.mark.parametrize("lines", range(2, len(LINES)))
-def test_a_mission_cut_at_any_line_is_a_beginning_of_the_same(lines: int) -> None:
+def test_a_mission_cut_at_any_line_still_verifies(lines: int) -> None:
     assert verified(b"".join(LINES[:lines])).reproduced
 
 
@@ -114,13 +114,13 @@ def test_reals_may_differ_in_their_last_bits() -> None:
 
 
 @pytest.mark.parametrize("line", range(3, len(LINES)))
-def test_a_line_taken_out_is_noticed_even_if_the_rest_is_renumbered(line: int) -> None:
+def test_a_removed_line_is_noticed_even_if_the_rest_is_renumbered(line: int) -> None:
     rest = LINES[: line - 1] + LINES[line:]
     assert verified(b"".join(rest)).difference == Difference(line, "seq", line, line - 1)
     assert TYPES[line - 1] == "acted" or not verified(renumbered(rest)).reproduced
 
 
-def test_a_line_put_in_is_noticed() -> None:
+def test_an_added_line_is_noticed() -> None:
     ended = line_of("mission_ended")
     late = verified(renumbered([*LINES[:ended], LINES[ended - 2], *LINES[ended:]])).difference
     assert late == Difference(ended + 1, "type", TYPES[ended - 2], "nothing")
@@ -137,7 +137,7 @@ def test_a_record_of_another_kind_is_named_by_its_kind() -> None:
     assert difference == Difference(rescued, "type", "expired", "rescued")
 
 
-def test_an_action_that_cannot_be_is_named() -> None:
+def test_an_impossible_action_is_named() -> None:
     line = line_of("acted")
     forward = verified(edited(line, action="forward")).difference
     assert forward is not None
@@ -155,7 +155,7 @@ def test_a_spoilt_building_is_named() -> None:
     assert difference.line == 2
 
 
-def test_an_abandoned_mission_must_be_whole_up_to_its_end() -> None:
+def test_an_abandoned_mission_must_be_complete_up_to_its_end() -> None:
     left = played(until_ms=9_000).splitlines(keepends=True)
     kinds = [json.loads(line)["type"] for line in left]
     place = kinds.index("mission_abandoned")
@@ -174,7 +174,7 @@ def test_a_cut_mission_is_verified_though_the_session_went_on(tmp_path: Path) ->
     assert (outcome.reproduced, outcome.missions, outcome.records) == (True, 1, 7)
 
 
-def test_the_command_says_of_each_file_how_it_went(tmp_path: Path) -> None:
+def test_the_command_reports_on_each_file(tmp_path: Path) -> None:
     folders = [tmp_path / name for name in ("good", "torn", "bad", "none")]
     for folder in folders:
         folder.mkdir()
@@ -192,7 +192,7 @@ def test_the_command_says_of_each_file_how_it_went(tmp_path: Path) -> None:
     assert said == [f"{good}: 1 mission, {len(LINES) - 3} records reproduced"]
     assert status(good, torn) == 0
     torn_bytes = len(LINES[-1]) - 10
-    assert said[1].endswith(f"(ignored an unfinished end of {torn_bytes} bytes)")
+    assert said[1].endswith(f"(an unfinished last line of {torn_bytes} bytes is ignored)")
     assert status(bad, good) == 1
     line = line_of("rescued")
     assert said[0] == f"{bad}: differs: line {line}: rescued.victim is v03, but should be v02"
@@ -202,7 +202,7 @@ def test_the_command_says_of_each_file_how_it_went(tmp_path: Path) -> None:
     assert status(tmp_path / "missing.jsonl") == 2
 
 
-def test_settings_are_those_of_the_mission_not_todays() -> None:
+def test_settings_are_the_missions_and_not_todays() -> None:
     slow = MissionSettings(duration_ms=30_000, red_expiry_ms=29_000, treat_blue_ms=9_000)
     assert slow != SETTINGS
     assert verified(played(settings=slow)).reproduced

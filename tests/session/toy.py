@@ -1,4 +1,4 @@
-"""A small coach of the tests' own, a tiny building, and missions played with them."""
+"""A small coach for tests, a tiny building, and missions played with them."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ EVERY_MS = 700
 
 
 class ToyCoach:
-    """Names the first waiting victim; every 0.7 s it takes a share of bumps for confusion."""
+    """Names the first waiting victim; every 0.7 s it takes the share of bumps as confusion."""
 
     def __init__(self, briefing: Briefing) -> None:
         self._sites = {site.id: site for site in briefing.building.victims}
@@ -152,7 +152,7 @@ def opening(settings: MissionSettings = SETTINGS) -> SessionStarted:
 
 
 Keys = Sequence[tuple[int, Action]]
-"""Keys, and how many milliseconds after the one before each is pressed."""
+"""Keys, and how many milliseconds after the previous one each is pressed."""
 
 WALK: Keys = (
     *[(300, Action.TRIAGE), (3_300, Action.NORTH), (210, Action.SOUTH)],
@@ -162,8 +162,8 @@ WALK: Keys = (
     *[(1_000, Action.EAST), (400, Action.SOUTH), (300, Action.EAST), (210, Action.EAST)],
     *[(210, Action.SOUTH), (210, Action.NORTH), (400, Action.TRIAGE)],
 )
-"""Rescues the blue victim of the first room, walks into the other one, begins to treat the red
-victim there and breaks off, and treats the blue one: with a bump, and keys faster than the pace."""
+"""Rescues the blue victim of the first room, walks into the other room, begins to treat the red
+victim there, breaks off and treats the blue one: with a bump, and keys faster than the pace."""
 
 
 def press(run: MissionRun, clock: VirtualClock, keys: Keys) -> None:
@@ -175,7 +175,7 @@ def press(run: MissionRun, clock: VirtualClock, keys: Keys) -> None:
 def played(
     keys: Keys = WALK, settings: MissionSettings = SETTINGS, *, until_ms: int | None = None
 ) -> bytes:
-    """The journal of a mission played with these keys, left at `until_ms` (None: at its end)."""
+    """The journal of a mission played with these keys and left at `until_ms` (None: at its end)."""
     clock = VirtualClock()
     sink = MemorySink()
     journal = Journal(sink, clock)

@@ -13,13 +13,13 @@ from tests.study.people import finished_study
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """Not to be changed: take a copy."""
+    """Do not change it: take a copy."""
     return finished_study(tmp_path_factory.mktemp("study") / "finished")
 
 
 @pytest.fixture
 def copy(finished: Study, tmp_path: Path) -> Study:
-    """The finished study, to be changed."""
+    """A copy of the finished study, to change."""
     folder = tmp_path / "copy"
     shutil.copytree(finished.folder, folder)
     return open_study(folder)

@@ -33,8 +33,8 @@ from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
 from game.screens.study.sliders import SlidersScreen
 from game.study.folder import Identity, Study
-from game.study.practice import legs
-from game.study.study_session import CODE_LENGTH, CODE_LETTERS, session_seed
+from game.study.protocol.practice import practice_legs
+from game.study.protocol.study_session import CODE_LENGTH, CODE_LETTERS, session_seed
 from game.world.building import Building, Room, VictimSite
 from game.world.events import Acted, Action, MissionEnded, Rescued
 from game.world.floodfill import cost_to_go
@@ -55,12 +55,12 @@ KEYS = {
 WALL = re.compile("[▀▄█]")
 """What the walls of a map are drawn with."""
 CLOCK = "for reds"
-"""What the panel shows of the time in missions, and not in practice."""
+"""How the panel shows the time in missions, but not in practice."""
 
 
 @dataclass
 class Walk:
-    """A mission as far as the journal has it."""
+    """A mission, as far as the journal knows it."""
 
     building: Building
     position: Cell
@@ -73,7 +73,7 @@ class Walk:
 
     @property
     def over(self) -> bool:
-        """Whether nothing is left to do in it."""
+        """Whether there is nothing left to do."""
         return self.left or len(self.rescued) == len(self.building.victims)
 
     @property
@@ -102,7 +102,7 @@ class Walk:
 
 
 class LiveJournal:
-    """How far the journal at `path` has come; `read_on` brings it up to date."""
+    """How far the journal at `path` has got; `read_on` brings it up to date."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -113,7 +113,7 @@ class LiveJournal:
         self.read_on()
 
     def read_on(self) -> None:
-        """Note the lines that were written since."""
+        """Note the lines written since the last call."""
         if not self._path.exists():
             return
         with self._path.open("rb") as file:
@@ -135,7 +135,7 @@ class LiveJournal:
 
 
 def telling(name: str, names: Sequence[str]) -> str:
-    """The shortest beginning of `name` that none of the other names holds."""
+    """The shortest prefix of `name` that is in none of the other names."""
     others = [other.casefold() for other in names if other != name]
     beginnings = (name[:length] for length in range(1, len(name) + 1))
     return next(
@@ -144,8 +144,8 @@ def telling(name: str, names: Sequence[str]) -> str:
 
 
 class TerminalParticipant:
-    """One who has logged in at `terminal`. Each method begins on the screen it is about, waits
-    for it, and ends when the next is up; any raises TimeoutError, with the screen."""
+    """A participant logged in at `terminal`. Each method waits for its own screen and returns when
+    the next one is up; any of them raises TimeoutError, with the screen."""
 
     def __init__(self, terminal: Terminal, study: Study, identity: Identity) -> None:
         self.terminal = terminal
@@ -153,7 +153,7 @@ class TerminalParticipant:
         self.identity = identity
         self.journal = LiveJournal(study.home(identity) / JOURNAL)
         self.pressed: list[Action] = []
-        """The keys of the mission under way, or of the last."""
+        """The keys pressed in the current mission, or in the last one."""
         self._entered = len(self.journal.missions)
 
     # --- before the rounds ----------------------------------------------------------------------
@@ -171,10 +171,10 @@ class TerminalParticipant:
         self._choose(texts.consent.title, 1, self._shows(texts.practice.title))
 
     def practise(self) -> None:
-        """Read the lessons, and find and treat whom each leg leads to."""
+        """Read the lessons, and find and treat the victim of each leg."""
         texts = self.study.texts
         walking = texts.lessons.walking.title
-        planned = legs(self.study.practice, session_seed(self.study, self.identity))
+        planned = practice_legs(self.study.practice, session_seed(self.study, self.identity))
         titles = [texts.lessons.of(leg.level).title for leg in planned]
         self._turn_page(texts.practice.title, self._shows(walking))
         self._turn_page(walking, self._shows(titles[0]))
@@ -187,7 +187,7 @@ class TerminalParticipant:
         self._wait(self._shows(texts.check.title))
 
     def answer_check(self, answers: Sequence[int]) -> None:
-        """Give `answers`, from 1, to the questions that end practice."""
+        """Give `answers`, from 1, to the questions at the end of practice."""
         texts, checks = self.study.texts, self.study.items.check
         titles = [texts.check.title] * (len(checks) - 1) + [texts.memorise.title]
         for check, answer, following in zip(checks, answers, titles, strict=True):
@@ -205,8 +205,8 @@ class TerminalParticipant:
         self._wait(self._shows(texts.label.title))
 
     def label(self, round_: int, *, right: int, wrong: int) -> dict[str, str]:
-        """Give their own names to as many rooms as are to be `right`, then the name of another
-        to the `wrong` ones, and finish; the names given, by the rooms' true names."""
+        """Name `right` rooms correctly, then `wrong` rooms with another one's name, and finish;
+        returns the names given, by the rooms' true names."""
         texts, given = self.study.texts, dict[str, str]()
         building = self.study.building(self.journal.buildings[round_ - 1])
         self._turn_page(texts.label.title, self._shows(f" {texts.words.left}"))
@@ -223,13 +223,13 @@ class TerminalParticipant:
         return given
 
     def begin_mission(self) -> None:
-        """Read what the mission is about, and begin it."""
+        """Read the page about the mission, and begin it."""
         self._turn_page(self.study.texts.mission.title, self._begun)
         self._enter_mission()
         assert CLOCK in self.terminal.text()
 
     def walk(self, enough: Callable[[Walk], bool] = lambda _: False) -> None:
-        """Rescue one victim after the other, until that is `enough` or the mission is over."""
+        """Rescue one victim after the other until `enough` are rescued or the mission is over."""
         walk, self.pressed = self.journal.missions[-1], []
 
         def stop() -> bool:
@@ -252,7 +252,7 @@ class TerminalParticipant:
         self._press(self._shows(texts.likert.title), "enter")
 
     def rate(self, values: Mapping[str, int]) -> None:
-        """Agree with each statement as far as its value says, by item."""
+        """Rate each statement with its value, by item."""
         items, scale = self.study.items.statement, self.study.items.scale.answers
         self._face(self.study.texts.likert.title, LikertScreen.DEAF_S)
         points = {it.text: values[it.id] for it in items}
@@ -273,7 +273,7 @@ class TerminalParticipant:
         self._press(self._shows(texts.debrief.title), words, "enter")
 
     def leave(self) -> str:
-        """Read the debriefing and close it; the completion code on it."""
+        """Read the debriefing and close it; returns the completion code."""
         self._face(self.study.texts.debrief.title, PageScreen.DEAF_S)
         code = re.search(rf"(?m)^\s*([{CODE_LETTERS}]{{{CODE_LENGTH}}})$", self.terminal.text())
         assert code is not None, self.terminal.text()
@@ -292,7 +292,7 @@ class TerminalParticipant:
         self._press(following, str(number), "enter")
 
     def _answer(self, answers: Mapping[str, tuple[str, str]]) -> None:
-        """Press the keys of each question, in the order of the page, and see its sign below it."""
+        """Press the keys for each question, in page order, and see its mark below it."""
         self._wait(lambda: len(self._lines_below(answers)) == len(answers))
         keys = [
             key for question in self._lines_below(answers) for key in (answers[question][0], "down")
@@ -313,7 +313,7 @@ class TerminalParticipant:
         }
 
     def _next_room(self, building: Building, given: Mapping[str, str]) -> Room:
-        """The room asked about, once it is none of those that were given a name."""
+        """The room asked about, once it is one without a name."""
 
         def ready() -> bool:
             room = self._asked_room(building)
@@ -342,7 +342,7 @@ class TerminalParticipant:
         return len(self.journal.missions) > self._entered
 
     def _enter_mission(self) -> None:
-        """Wait until a new mission is on the screen, with its instruction whole."""
+        """Wait until a new mission is on the screen, with its complete instruction."""
         self._wait(self._begun)
         self._entered += 1
         self._wait(self._instructed)
@@ -353,7 +353,7 @@ class TerminalParticipant:
         return bool(instruction) and "".join(instruction.split()) in "".join(shown.split())
 
     def _act(self, walk: Walk, action: Action) -> None:
-        """Press a key and wait until what it did is recorded."""
+        """Press a key and wait until its effect is recorded."""
         before = walk.actions
         self.pressed.append(action)
         self._press(lambda: walk.actions > before or walk.left, KEYS[action])
@@ -368,12 +368,12 @@ class TerminalParticipant:
         return lambda: (text in self.terminal.text()) is not no
 
     def _face(self, text: str, deaf_s: float = 0.0) -> None:
-        """Wait for a screen, and then for as long as its keys do nothing."""
+        """Wait for a screen, and then until it accepts keys."""
         self._wait(self._shows(text))
         self.terminal.read_for(deaf_s)
 
     def _press(self, ready: Callable[[], bool], *keys: str) -> None:
-        """Press the keys, once, and wait for what follows."""
+        """Press the keys once and wait for what follows."""
         self.terminal.press(*keys)
         self._wait(ready, f" after {', '.join(keys)}")
 

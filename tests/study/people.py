@@ -1,4 +1,4 @@
-"""A scripted participant, who answers the same every time and needs no screen."""
+"""A scripted participant who always answers the same and needs no screen."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Literal
 import pytest
 
 from game.journal.clock import VirtualClock
+from game.journal.history import Step
 from game.journal.reader import Transcript, read_journal
 from game.journal.records import PhaseStarted, Preflighted, Terminal
 from game.journal.sink import FileSink, Sink
-from game.study.conduct import conduct
 from game.study.folder import Identity, Study, new_study, open_study
-from game.study.protocol import Step
-from game.study.study_session import open_session
+from game.study.protocol.conduct import conduct
+from game.study.protocol.study_session import open_session
+from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize
-from game.study.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page
 from game.world.building import Building
 from game.world.events import Action
@@ -32,8 +32,8 @@ MISSION_MS = 6_000
 
 
 def small_study(folder: Path, **changes: str) -> Study:
-    """A study whose timed phases take seconds; `changes` replace values of study.toml, or add
-    rules of the mission that it does not name."""
+    """A study whose timed phases take seconds; `changes` replace values in study.toml, or add
+    mission rules that it does not list."""
     new_study(folder, seed=7, blocks=1)
     values = {
         "memorise_seconds": "[3, 5]",
@@ -53,7 +53,7 @@ def small_study(folder: Path, **changes: str) -> Study:
 
 
 class Scripted:
-    """Agrees, labels every other room rightly, walks north, and rates everything 3 or 42.
+    """Agrees, labels every other room correctly, walks north, and rates everything 3 or 42.
 
     Before each thing it does, `moment` is told what: it may raise to cut the session off there.
     """
@@ -148,7 +148,7 @@ class Scripted:
 
 
 def towards(plan: Plan, here: Cell, goal: Cell) -> Action:
-    """The action that leads nearer to `goal`."""
+    """The action that leads closer to `goal`."""
     values = cost_to_go(plan, goal)
     best = min(
         (heading for heading in Heading if plan.walkable(heading.from_cell(here))),
@@ -158,7 +158,7 @@ def towards(plan: Plan, here: Cell, goal: Cell) -> Action:
 
 
 class QuickSink(FileSink):
-    """Hands lines to the operating system and does not wait for the disk."""
+    """Passes lines to the operating system and does not wait for the disk."""
 
     def flush_durably(self) -> None:
         self._check()
@@ -174,7 +174,7 @@ def take_part(
     moment: Callable[[str], None] = lambda _: None,
     clock: VirtualClock | None = None,
 ) -> tuple[str, Scripted]:
-    """Lead a scripted participant on; the outcome, and who it was."""
+    """Conduct a scripted participant's session; returns the outcome and the participant."""
     clock = clock or VirtualClock()
     person = Scripted(clock, agrees=agrees, labels=labels, moment=moment)
     session = open_session(study, identity, TERMINAL, clock=clock, sink=sink)
@@ -182,7 +182,7 @@ def take_part(
 
 
 def cut_off(study: Study, identity: Identity, *, at: str, since: str = "", times: int = 1) -> None:
-    """Let a participant be cut off where they do `at` for so many times since they did `since`."""
+    """Cut a participant off when they do `at` so many times after they did `since`."""
 
     class Cut(Exception):
         pass
@@ -205,7 +205,7 @@ def journal_of(study: Study, identity: Identity = P01) -> Transcript:
 
 
 def rewind(study: Study, step: Step) -> None:
-    """Let a finished session stand right before `step` begins, as after a kill."""
+    """Cut a finished session back to just before `step` begins, as after a kill."""
     entries = journal_of(study).entries
     cut = next(
         number

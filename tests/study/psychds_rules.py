@@ -22,7 +22,7 @@ LOOSE_FILES = {"dataset_description.json", "README.md", "CHANGES.md", *IGNORE_FI
 
 
 def broken_rules(dataset: Path) -> list[str]:
-    """Everything about the dataset that Psych-DS does not allow."""
+    """Everything in the dataset that Psych-DS does not allow."""
     return list(_broken(dataset))
 
 
@@ -67,7 +67,7 @@ def _description(about: dict[str, Any]) -> Iterator[str]:
 
 
 def _files(dataset: Path) -> Iterator[str]:
-    """Files that a validator would look at and not know."""
+    """Files that a validator would look at without knowing them."""
     ignored = [
         line
         for name in IGNORE_FILES

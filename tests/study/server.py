@@ -19,12 +19,12 @@ ANA = Path(sys.executable).with_name("ana")
 SSHD = shutil.which("sshd", path=f"{os.environ.get('PATH', '')}:/usr/sbin:/usr/local/sbin")
 SSH = shutil.which("ssh")
 BY_KEY = 'restrict,pty,environment="ANA_PARTICIPANT={}"'
-"""What authorized_keys says of a key that is one participant's."""
+"""The options in authorized_keys for one participant's key."""
 
 
 class Server:
-    """Use as a context manager. `keys` are names of key pairs; what `options` say of one stands
-    before it in authorized_keys."""
+    """Use as a context manager. `keys` are names of key pairs; `options` go in front of a key in
+    authorized_keys."""
 
     def __init__(self, study: Path, folder: Path, options: dict[str, str]) -> None:
         self.folder = folder
@@ -79,7 +79,7 @@ class Server:
         return [SSH, *where, *told, f"{getpass.getuser()}@127.0.0.1", *arguments]
 
     def effective(self) -> dict[str, str]:
-        """The settings that hold for a participant, as the server itself tells them."""
+        """The settings that apply to a participant, as reported by the server."""
         assert SSHD is not None
         who = f"user={getpass.getuser()},host=localhost,addr=127.0.0.1"
         arguments = ("-T", "-f", str(self.configuration), "-C", who)

@@ -1,4 +1,4 @@
-"""A whole session without a screen: what it records, and what becomes of one that is cut off."""
+"""A whole session without a screen: what it records, and what happens if it is interrupted."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from game.coach.acts import CoachRecord, InstructionIssued, Level
 from game.journal.failures import JournalError
-from game.journal.missions import missions, strays
+from game.journal.history import Step, history_of, read_history
 from game.journal.reader import Entry
 from game.journal.records import (
     Allocated,
@@ -37,14 +37,13 @@ from game.journal.records import (
 )
 from game.journal.sink import FileSink, MemorySink
 from game.session.verification import verify
-from game.study.conduct import Stopped, instructor
-from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study
-from game.study.ledger import CameBack, NoPlace, SlotTaken, ending_of, slot_of
-from game.study.ledger import SessionEnded as LedgerEnded
+from game.study.lab.leaving import drop_out
+from game.study.ledger import CameBack, NoPlace, SessionOutcome, SlotTaken, ending_of, slot_of
 from game.study.lock import SessionBusy, SessionLock
-from game.study.practice import LEGS
-from game.study.protocol import TIMELINE, Step, progress
+from game.study.protocol.conduct import Stopped, instructor
+from game.study.protocol.practice import LEGS
+from game.study.protocol.timeline import TIMELINE
 from game.world.events import Acted
 from tests.study.people import MISSION_MS, P01, cut_off, journal_of, small_study, take_part
 
@@ -89,12 +88,12 @@ def test_a_session_passes_every_phase_in_order_and_ends(finished: Study) -> None
     assert ended == list(TIMELINE)
     assert set(endings(finished).values()) == {"completed"}
     assert entries[-1].record == SessionEnded("finished")
-    assert progress((entry.envelope, entry.record) for entry in entries).over
+    assert history_of((entry.envelope, entry.record) for entry in entries).over
     ledger = finished.ledger.entries()
     assert ending_of(ledger, "P01", "pilot") == "finished"
 
 
-def test_all_that_is_asked_is_answered(finished: Study) -> None:
+def test_every_question_is_answered(finished: Study) -> None:
     asked = records(finished, QuestionnaireAnswer)
     count = Counter(answer.item for answer in asked)
     items = finished.items
@@ -158,7 +157,7 @@ def test_a_slot_is_taken_after_practice(finished: Study) -> None:
     assert kinds.index(Allocated) < first.envelope.seq
 
 
-def test_timed_phases_are_exposed_every_second(finished: Study) -> None:
+def test_timed_phases_record_their_exposure_every_second(finished: Study) -> None:
     for phase, limit_ms in (("memorise", 5_000), ("mission", MISSION_MS)):
         seen = [
             entry.record.exposure_ms
@@ -174,13 +173,14 @@ def test_timed_phases_are_exposed_every_second(finished: Study) -> None:
 
 def test_missions_of_the_journal_replay_to_the_same(finished: Study) -> None:
     transcript = journal_of(finished)
-    assert len(missions(transcript)) == 8
-    assert not strays(transcript)
+    history = read_history(transcript)
+    assert len(history.missions) == 8
+    assert not history.strays
     verdict = verify(finished.home(P01) / "journal.jsonl")
     assert verdict.difference is None
 
 
-def test_two_sessions_of_one_participant_are_alike_and_every_page_is_whole(
+def test_two_sessions_of_one_participant_are_equal_and_every_page_is_complete(
     finished: Study, tmp_path: Path
 ) -> None:
     again = small_study(tmp_path / "again")
@@ -192,13 +192,13 @@ def test_two_sessions_of_one_participant_are_alike_and_every_page_is_whole(
     ][1:]
 
 
-def test_the_completion_code_is_plain_to_read(finished: Study) -> None:
+def test_the_completion_code_is_easy_to_read(finished: Study) -> None:
     (debriefed,) = records(finished, Debriefed)
     assert len(debriefed.completion_code) == 8
     assert not set(debriefed.completion_code) & set("01OIS5lo")
 
 
-def test_the_same_page_ends_a_session_that_is_over(copy: Study) -> None:
+def test_a_finished_session_shows_its_last_page_again(copy: Study) -> None:
     before = (copy.home(P01) / "journal.jsonl").read_bytes()
     outcome, person = take_part(copy)
     (code,) = (entry.completion_code for entry in records(copy, Debriefed))
@@ -208,7 +208,7 @@ def test_the_same_page_ends_a_session_that_is_over(copy: Study) -> None:
     assert (copy.home(P01) / "journal.jsonl").read_bytes() == before
 
 
-def test_who_declines_leaves_nothing_but_that(tmp_path: Path) -> None:
+def test_only_the_refusal_is_kept_of_people_who_decline(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
     outcome, person = take_part(study, agrees=False)
     kept = [entry.record for entry in journal_of(study).entries]
@@ -218,7 +218,7 @@ def test_who_declines_leaves_nothing_but_that(tmp_path: Path) -> None:
     assert isinstance(kept[0], SessionStarted)
     assert kept[0].terminal is None
     assert not any(isinstance(entry, SlotTaken) for entry in study.ledger.entries())
-    assert isinstance(study.ledger.entries()[-1], LedgerEnded)
+    assert isinstance(study.ledger.entries()[-1], SessionOutcome)
 
 
 def test_before_consent_nothing_is_written(tmp_path: Path) -> None:
@@ -235,7 +235,7 @@ def test_before_consent_nothing_is_written(tmp_path: Path) -> None:
 
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(share=st.floats(0, 1))
-def test_a_session_killed_at_any_byte_goes_on_and_loses_nothing(
+def test_a_session_killed_at_any_byte_resumes_and_loses_nothing(
     finished: Study, tmp_path_factory: pytest.TempPathFactory, share: float
 ) -> None:
     study = small_study(tmp_path_factory.mktemp("cut") / "study")
@@ -262,7 +262,7 @@ def test_a_session_killed_at_any_byte_goes_on_and_loses_nothing(
     assert ended == list(TIMELINE)
     if survived and not isinstance(before[-1].record, SessionEnded):
         assert isinstance(entries[len(before)].record, Resumed)
-    begun = progress((entry.envelope, entry.record) for entry in before).begun
+    begun = history_of((entry.envelope, entry.record) for entry in before).begun
     cut = begun if begun is not None and begun.phase == "mission" else None
     assert [s for s, ending in endings(study).items() if ending == "interrupted"] == (
         [cut] if cut else []
@@ -271,7 +271,7 @@ def test_a_session_killed_at_any_byte_goes_on_and_loses_nothing(
 
 
 @pytest.mark.parametrize("phase", ["memorise", "label"])
-def test_a_timed_phase_goes_on_with_what_was_left(copy: Study, phase: str) -> None:
+def test_a_timed_phase_continues_with_the_time_left(copy: Study, phase: str) -> None:
     path = copy.home(P01) / "journal.jsonl"
     lines = path.read_bytes().splitlines(keepends=True)
     at = max(
@@ -292,11 +292,11 @@ def test_a_timed_phase_goes_on_with_what_was_left(copy: Study, phase: str) -> No
         assert ended == PhaseEnded("completed", limit_ms)
 
 
-def test_one_who_stops_comes_back_to_where_they_were(tmp_path: Path) -> None:
+def test_a_participant_who_stopped_continues_at_the_same_place(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
 
     class Tired(Exception):
-        """Not the participant's way to stop."""
+        """Not how a participant stops."""
 
     def leave(what: str) -> None:
         if what == "prefer":
@@ -311,7 +311,7 @@ def test_one_who_stops_comes_back_to_where_they_were(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("labels", [True, False])
 def test_a_coach_knows_nothing_of_the_quiz(tmp_path: Path, finished: Study, labels: bool) -> None:
-    """Nor of the memorise time, the order or the other round: only the briefing reaches it."""
+    """Nor about the memorise time, the order or the other round: it gets only the briefing."""
     study = small_study(
         tmp_path / "study", memorise_seconds="[1, 2]" if labels else "[3, 5]", label_seconds="9"
     )
@@ -363,7 +363,7 @@ def test_a_changed_study_is_refused_until_it_is_amended(copy: Study) -> None:
     assert (amended.study, amended.why) == (changed.copy, "more time was needed")
 
 
-def test_a_drop_out_may_come_back_to_a_place_nobody_else_has(tmp_path: Path) -> None:
+def test_a_drop_out_can_come_back_to_a_place_that_is_still_free(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study", refill_dropouts="true")
     slot = dropped_out(study, P05)
     assert take_part(study, P05)[0] == "over"
@@ -380,7 +380,7 @@ def test_a_drop_out_whose_place_was_given_away_is_told_so(tmp_path: Path) -> Non
     before = (study.home(P05) / "journal.jsonl").read_bytes()
     assert study.ledger.allocate("P06", "live", refill=True).slot == slot
     for _ in range(2):
-        with pytest.raises(NoPlace, match="to somebody else in the meantime"):
+        with pytest.raises(NoPlace, match="been given to someone else"):
             take_part(study, P05)
     assert (study.home(P05) / "journal.jsonl").read_bytes() == before
     assert ending_of(study.ledger.entries(), "P05", "live") == "dropped"
@@ -395,7 +395,7 @@ def test_leaving_the_last_page_by_ctrl_c_changes_nothing(copy: Study) -> None:
     assert (copy.home(P01) / "journal.jsonl").read_bytes() == before
 
 
-def test_the_sliders_say_that_a_mission_was_cut_off(tmp_path: Path) -> None:
+def test_the_sliders_page_says_that_the_mission_was_interrupted(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
     cut_off(study, P01, at="play", since="label")
     _, person = take_part(study)
@@ -415,7 +415,7 @@ def test_nobody_is_dropped_while_taking_part(tmp_path: Path) -> None:
 
 
 def dropped_out(study: Study, identity: Identity) -> int:
-    """Let a participant leave in the label phase and be marked as a drop-out; their slot."""
+    """Let a participant leave in the label phase and drop out; returns their slot."""
 
     class Gone(Exception):
         pass
@@ -437,7 +437,7 @@ def test_a_leg_of_practice_ends_as_done(finished: Study) -> None:
     assert [record.reason for record in left] == ["leg_done"] * LEGS
 
 
-def test_a_simulated_session_is_of_the_same_form(tmp_path: Path, finished: Study) -> None:
+def test_a_simulated_session_has_the_same_form(tmp_path: Path, finished: Study) -> None:
     study = small_study(tmp_path / "study")
     take_part(study, sink=MemorySink)
     assert [e.record for e in journal_of(study).entries][1:] == [

@@ -1,4 +1,4 @@
-"""The export: a valid Psych-DS dataset, the same bytes each time, nobody in it who withdrew."""
+"""The export: a valid Psych-DS dataset, always the same bytes, without withdrawn participants."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ import pytest
 from click.testing import CliRunner
 
 from analysis.sources.longcsv import read_long_csv
-from game.commands.ana_study import group
+from game.commands.ana_study import study_group
 from game.journal.reader import read_journal
 from game.session.verification import verify
-from game.study.export import export_study, without_free_text
 from game.study.folder import Identity, Study, StudyError
+from game.study.lab.export import export_study, without_free_text
+from game.study.lab.leaving import withdraw
+from game.study.lab.psychds import alphanumeric
 from game.study.ledger import Unblinded
-from game.study.psychds import alphanumeric
-from game.study.withdraw import withdraw
 from tests.study.people import small_study, take_part
 from tests.study.psychds_rules import broken_rules
 
 WORDS = "clearer"
-"""What the scripted participant gives for a reason."""
+"""The reason that the scripted participant gives."""
 
 P01, P02 = Identity("live", "P01"), Identity("live", "P02")
 Files = dict[str, bytes]
@@ -34,7 +34,7 @@ Files = dict[str, bytes]
 
 @pytest.fixture(scope="module")
 def several(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """A study that two finished, one declined and one tried."""
+    """A study with two finished sessions, one that was declined, and a pilot."""
     study = small_study(tmp_path_factory.mktemp("export") / "study")
     take_part(study, P01)
     take_part(study, P02)
@@ -105,7 +105,7 @@ def test_the_same_call_gives_the_same_bytes(study: Study, tmp_path: Path) -> Non
     assert contents(tmp_path / "elsewhere") == before
 
 
-def test_the_analysis_table_has_a_row_a_participant_and_instructor(
+def test_the_analysis_table_has_one_row_per_participant_and_instructor(
     study: Study, tmp_path: Path
 ) -> None:
     export_study(study.folder, tmp_path / "out")
@@ -132,7 +132,7 @@ def test_the_analysis_reads_the_table_as_it_is(study: Study, tmp_path: Path) -> 
     assert set(read.rounds["preference"]) == {12}
 
 
-def test_modes_are_mixed_in_no_file(study: Study, tmp_path: Path) -> None:
+def test_no_file_mixes_modes(study: Study, tmp_path: Path) -> None:
     out = tmp_path / "out"
     export_study(study.folder, out)
     assert not list(out.rglob("*pilot*"))
@@ -142,7 +142,9 @@ def test_modes_are_mixed_in_no_file(study: Study, tmp_path: Path) -> None:
     assert "T01" not in {row["participant"] for row in table(out, "participants", "live")}
 
 
-def test_who_has_withdrawn_is_nowhere_even_in_an_older_export(study: Study, tmp_path: Path) -> None:
+def test_withdrawn_participants_are_gone_even_from_an_earlier_export(
+    study: Study, tmp_path: Path
+) -> None:
     out = tmp_path / "out"
     export_study(study.folder, out)
     withdraw(study, P02)
@@ -157,7 +159,7 @@ def test_a_withdrawal_that_was_cut_off_counts(study: Study, tmp_path: Path) -> N
     assert b"P02" not in b"".join(contents(tmp_path / "out").values())
 
 
-def test_own_words_stand_in_their_own_file_and_nowhere_else(study: Study, tmp_path: Path) -> None:
+def test_free_text_is_in_its_own_file_and_nowhere_else(study: Study, tmp_path: Path) -> None:
     out = tmp_path / "out"
     export_study(study.folder, out)
     holding = [name for name, data in contents(out).items() if WORDS.encode() in data]
@@ -176,7 +178,7 @@ def test_raw_journals_are_kept_and_still_verify(study: Study, tmp_path: Path) ->
     assert verify(raw).reproduced
 
 
-def test_a_torn_line_with_own_words_is_left_out() -> None:
+def test_an_unfinished_line_with_free_text_is_left_out() -> None:
     whole = b'{"seq":1,"type":"free_text","answer":"I am me"}\n{"seq":2,"type":"x"}\n'
     assert without_free_text(whole) == (
         b'{"seq":1,"type":"free_text","answer":""}\n{"seq":2,"type":"x"}\n'
@@ -197,7 +199,9 @@ def test_a_session_under_way_does_no_harm(study: Study, tmp_path: Path) -> None:
     assert "P09" not in people
 
 
-def test_reading_live_data_of_an_open_study_is_ledgered(study: Study, tmp_path: Path) -> None:
+def test_exporting_live_data_of_an_open_study_is_recorded_in_the_ledger(
+    study: Study, tmp_path: Path
+) -> None:
     def unblinded() -> int:
         return sum(isinstance(entry, Unblinded) for entry in study.ledger.entries())
 
@@ -210,20 +214,22 @@ def test_reading_live_data_of_an_open_study_is_ledgered(study: Study, tmp_path: 
     assert unblinded() == 1
 
 
-def test_nothing_of_somebody_elses_is_replaced(study: Study, tmp_path: Path) -> None:
+def test_an_export_replaces_only_earlier_exports(study: Study, tmp_path: Path) -> None:
     out = tmp_path / "out"
     export_study(study.folder, out)
     (out / "thesis.md").write_text("mine")
-    with pytest.raises(StudyError, match=r"thesis\.md is not of an earlier export"):
+    with pytest.raises(
+        StudyError, match=r"contains thesis\.md, which is not part of an earlier export"
+    ):
         export_study(study.folder, out)
     assert (out / "thesis.md").read_text() == "mine"
     other = tmp_path / "other"
     (other / "data").mkdir(parents=True)
     (other / "data" / "mine.csv").write_text("a\n")
-    with pytest.raises(StudyError, match="not of an earlier export"):
+    with pytest.raises(StudyError, match="not part of an earlier export"):
         export_study(study.folder, other)
     for holding in (study.folder, study.folder.parent):
-        with pytest.raises(StudyError, match="the study itself"):
+        with pytest.raises(StudyError, match="contains the study itself"):
             export_study(study.folder, holding)
 
 
@@ -259,7 +265,9 @@ def test_a_studys_name_becomes_a_value_of_a_file_name(words: str, value: str) ->
 def test_the_command_says_what_it_wrote(study: Study, tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = CliRunner().invoke(
-        group, ["export", str(study.folder), str(out), "--mode", "pilot"], standalone_mode=False
+        study_group,
+        ["export", str(study.folder), str(out), "--mode", "pilot"],
+        standalone_mode=False,
     )
     assert done.exception is None
     assert done.stdout == f"{out}: pilot sessions 1, rounds 2\n"

@@ -1,4 +1,4 @@
-"""What a session survives: killed, on a full disk, with its clock set back, with a torn journal."""
+"""What a session survives: a kill, a full disk, a clock set back, a torn journal."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 
 from game.errors import AnaError
 from game.journal.clock import Reading, VirtualClock
+from game.journal.history import Step, history_of
 from game.journal.reader import Entry
 from game.journal.records import (
     Interruption,
@@ -23,9 +24,9 @@ from game.journal.records import (
 )
 from game.session.verification import verify
 from game.study.folder import Study
+from game.study.lab.attendance import Attendance
 from game.study.ledger import LedgerError
-from game.study.protocol import TIMELINE, Step, next_point, progress
-from game.study.roll import Roll
+from game.study.protocol.timeline import TIMELINE, next_point
 from tests.disks import files_no_longer_than
 from tests.study.people import P01, journal_of, small_study, take_part
 
@@ -55,13 +56,13 @@ def shown(_):
 
 take_part(open_study(Path(sys.argv[1])), sink=Counting.begin, moment=shown)
 """
-"""Tells, before each thing the participant does, how many lines were written before it: whatever
-they then see or have answered is in those."""
+"""Reports, before each thing the participant does, how many lines were written before it:
+everything they then see or have answered is in these lines."""
 
 
 def killed_after(study: Study, moments: int) -> int:
-    """Kill a session with SIGKILL once its participant has done `moments` things; how many lines
-    of its journal had been told by then."""
+    """Kill a session with SIGKILL once its participant has done `moments` things; returns how many
+    lines of its journal had been reported by then."""
     process = subprocess.Popen(
         [sys.executable, "-c", TAKER, str(study.folder)], stdout=subprocess.PIPE, cwd=ROOT
     )
@@ -75,15 +76,15 @@ def killed_after(study: Study, moments: int) -> int:
 
 
 def survived(study: Study) -> tuple[Entry, ...]:
-    """What the journal holds; nothing where the session had not come to consent."""
+    """The entries of the journal; none if the session had not reached consent."""
     path = study.home(P01) / "journal.jsonl"
     return journal_of(study).entries if path.exists() and b"\n" in path.read_bytes() else ()
 
 
 def comes_back(study: Study, before: tuple[Entry, ...]) -> None:
-    """Go on after a fault that left `before`: to the right place, losing nothing, to the end."""
+    """Continue after a fault that left `before`: at the right place, losing nothing, to the end."""
     expected = next_point(
-        progress((entry.envelope, entry.record) for entry in before), study.settings
+        history_of((entry.envelope, entry.record) for entry in before), study.settings
     )
     assert take_part(study)[0] == "over"
     entries = journal_of(study).entries
@@ -112,7 +113,7 @@ def comes_back(study: Study, before: tuple[Entry, ...]) -> None:
 
 
 def repeated_answers(entries: tuple[Entry, ...]) -> list[tuple[Step, str]]:
-    """Questions of the sheets and labels that were asked again though they had been answered."""
+    """Questions and rooms that were asked again although they had been answered."""
     asked = [
         (Step(entry.envelope.phase, entry.envelope.round), name)
         for entry in entries
@@ -151,7 +152,7 @@ def test_killed_at_two_hundred_random_moments(tmp_path: Path, number: int) -> No
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.93])
-def test_a_full_disk_stops_the_session_which_goes_on_when_there_is_room(
+def test_a_full_disk_stops_the_session_which_continues_when_there_is_space(
     tmp_path: Path, finished: Study, share: float
 ) -> None:
     study = small_study(tmp_path / "study")
@@ -175,7 +176,7 @@ def test_a_full_disk_gives_out_no_place(tmp_path: Path) -> None:
 
 
 class SetBack(VirtualClock):
-    """A clock whose wall clock is set back an hour once it has run for `after_ms`."""
+    """A clock whose wall time is set back an hour after `after_ms`."""
 
     def __init__(self, after_ms: int) -> None:
         super().__init__()
@@ -199,13 +200,13 @@ def test_a_clock_set_back_an_hour_changes_no_time_that_counts(
     records.remove(steps[0])
     assert records[1:] == [entry.record for entry in journal_of(finished).entries][1:]
     assert verify(study.home(P01) / "journal.jsonl").difference is None
-    (status,) = Roll(study.folder).look(study.settings)
+    (status,) = Attendance(study.folder).look(study.settings)
     assert (status.state, status.interruptions) == ("finished", 1)
     assert status.silent_s is not None
     assert status.silent_s >= 0
 
 
-def test_a_session_that_goes_on_an_hour_before_it_began(tmp_path: Path) -> None:
+def test_a_session_can_continue_an_hour_before_it_began(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
 
     class Cut(Exception):
@@ -227,7 +228,7 @@ def test_a_session_that_goes_on_an_hour_before_it_began(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("tail", [b"\0" * 512, b'{"seq":9,"type":"pha', b"\xff\xfe"])
-def test_a_torn_journal_goes_on_from_its_last_whole_line(
+def test_a_torn_journal_continues_from_its_last_complete_line(
     tmp_path: Path, finished: Study, tail: bytes
 ) -> None:
     study = small_study(tmp_path / "study")

@@ -1,4 +1,4 @@
-"""The study's folder: made, opened, guarded against change, left by withdrawal."""
+"""The study's folder: creating, opening, protection against changes, withdrawal."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from game.study.folder import (
     new_study,
     open_study,
 )
+from game.study.lab.leaving import withdraw
 from game.study.ledger import LedgerError, SettingsAmended, ending_of, slot_of
 from game.study.lock import SessionBusy, SessionLock
 from game.study.study_settings import SettingsError
-from game.study.withdraw import withdraw
 from tests.study.people import P01, journal_of, small_study, take_part
 
 
@@ -36,7 +36,7 @@ def edit(study: Study, before: str, after: str) -> None:
     path.write_text(text.replace(before, after))
 
 
-def test_a_new_study_is_sound_and_private(tmp_path: Path) -> None:
+def test_a_new_study_is_valid_and_private(tmp_path: Path) -> None:
     folder = tmp_path / "deep" / "study"
     new_study(folder, seed=3, blocks=2)
     study = open_study(folder)
@@ -47,7 +47,7 @@ def test_a_new_study_is_sound_and_private(tmp_path: Path) -> None:
         assert stat.S_IMODE(file.stat().st_mode) == 0o600
 
 
-def test_a_seed_is_drawn_where_none_is_given(tmp_path: Path) -> None:
+def test_without_a_seed_a_random_one_is_chosen(tmp_path: Path) -> None:
     seeds = set()
     for name in "abc":
         new_study(tmp_path / name)
@@ -56,7 +56,7 @@ def test_a_seed_is_drawn_where_none_is_given(tmp_path: Path) -> None:
 
 
 def test_a_study_is_not_made_over_another(study: Study) -> None:
-    with pytest.raises(StudyError, match="something in it"):
+    with pytest.raises(StudyError, match="not empty"):
         new_study(study.folder)
 
 
@@ -67,7 +67,7 @@ def test_pseudonyms(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "x" * 33, "a@b.org", "Ann Lee", "../x", "a/b", ".", "é"])
-def test_what_is_no_pseudonym(name: str) -> None:
+def test_not_pseudonyms(name: str) -> None:
     with pytest.raises(StudyError, match="pseudonym"):
         identify(name)
 
@@ -81,7 +81,7 @@ def test_what_decides_the_allocation_never_changes(study: Study, before: str, af
         open_study(study.folder)
 
 
-def test_settings_change_freely_until_somebody_is_allocated(study: Study) -> None:
+def test_settings_change_freely_until_the_first_allocation(study: Study) -> None:
     edit(study, "label_seconds = 6", "label_seconds = 7")
     changed = open_study(study.folder)
     changed.ledger.agree(changed.copy.sha256)
@@ -106,13 +106,13 @@ def test_afterwards_a_change_needs_an_amendment(study: Study) -> None:
 
 def test_nothing_is_amended_that_was_not_changed(study: Study) -> None:
     study.ledger.agree(study.copy.sha256)
-    with pytest.raises(StudyError, match="was not changed"):
+    with pytest.raises(StudyError, match="has not changed"):
         amend(study.folder, "no reason")
 
 
 def test_a_building_must_fit_the_study_screen(study: Study) -> None:
     edit(study, "columns = 120", "columns = 90")
-    with pytest.raises(StudyError, match="too large"):
+    with pytest.raises(StudyError, match="more than the map"):
         open_study(study.folder)
 
 

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from game.study.design import design_cell
-from game.study.ledger import Ledger, LedgerError, SessionEnded, SlotTaken, StudyCreated, slot_of
+from game.study.ledger import Ledger, LedgerError, SessionOutcome, SlotTaken, StudyCreated, slot_of
 
 ASK = "import sys; from pathlib import Path; from game.study.ledger import Ledger; "
 
@@ -41,7 +41,7 @@ def test_twenty_at_once_get_twenty_slots_in_exact_balance(ledger: Ledger) -> Non
     assert set(Counter(first_half).values()) == {4}
 
 
-def test_who_asks_again_gets_the_slot_already_held(ledger: Ledger) -> None:
+def test_asking_again_gives_the_same_slot(ledger: Ledger) -> None:
     first = ledger.allocate("P1", "live")
     ledger.allocate("P2", "live")
     assert ledger.allocate("P1", "live") == first
@@ -65,7 +65,7 @@ def test_a_dropouts_slot_is_given_again_only_by_setting(ledger: Ledger) -> None:
     dropped = ledger.allocate("P1", "live")
     ledger.end_session("P1", "live", "dropped")
     ledger.end_session("P1", "live", "dropped")
-    assert sum(isinstance(entry, SessionEnded) for entry in ledger.entries()) == 1
+    assert sum(isinstance(entry, SessionOutcome) for entry in ledger.entries()) == 1
     assert ledger.allocate("P2", "live").slot == 1
     again = ledger.allocate("P3", "live", refill=True)
     assert (again.slot, again.cell, again.refill) == (dropped.slot, dropped.cell, True)
@@ -89,7 +89,7 @@ def test_a_lock_held_by_a_killed_process_is_free(ledger: Ledger) -> None:
 
 
 @given(cut=st.integers(0, 400))
-def test_a_torn_tail_never_counts_and_is_mended(tmp_path_factory, cut: int) -> None:  # type: ignore[no-untyped-def]
+def test_a_torn_tail_never_counts_and_is_repaired(tmp_path_factory, cut: int) -> None:  # type: ignore[no-untyped-def]
     ledger = Ledger(tmp_path_factory.mktemp("torn") / "ledger.jsonl", now=lambda: "2026")
     ledger.create(seed=5, blocks=1, settings_hash="abc")
     start = ledger.path.stat().st_size

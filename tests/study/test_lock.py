@@ -1,4 +1,4 @@
-"""One process a session, and taking over from another."""
+"""One process per session, and taking over from another."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def holder(home: Path, kind: str) -> subprocess.Popen[bytes]:
     return process
 
 
-def test_a_second_one_is_told_who_holds_it(tmp_path: Path) -> None:
+def test_a_second_process_is_told_who_holds_the_lock(tmp_path: Path) -> None:
     process = holder(tmp_path, "polite")
     try:
         with pytest.raises(SessionBusy, match="another window") as told:
@@ -54,7 +54,7 @@ def test_a_second_one_is_told_who_holds_it(tmp_path: Path) -> None:
 def test_taking_over_ends_the_other(
     tmp_path: Path, kind: str, ended_by: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("game.study.lock.PATIENCE_S", 0.5)
+    monkeypatch.setattr("game.study.lock.TAKEOVER_S", 0.5)
     process = holder(tmp_path, kind)
     lock = take_over(tmp_path)
     assert process.wait(5) == -ended_by
@@ -64,7 +64,7 @@ def test_taking_over_ends_the_other(
     lock.release()
 
 
-def test_a_lock_file_of_a_dead_process_holds_nobody_up(tmp_path: Path) -> None:
+def test_the_lock_file_of_a_dead_process_blocks_nobody(tmp_path: Path) -> None:
     process = holder(tmp_path, "polite")
     process.kill()
     process.wait()
@@ -84,7 +84,7 @@ def test_a_pid_in_a_lock_that_nobody_holds_is_not_touched(tmp_path: Path) -> Non
     assert bystander.returncode == 0
 
 
-def test_the_kernel_and_no_number_tells_whether_a_session_is_open(tmp_path: Path) -> None:
+def test_the_kernel_decides_whether_a_session_is_open(tmp_path: Path) -> None:
     assert not is_held(tmp_path)
     process = holder(tmp_path, "polite")
     (tmp_path / LOCK).write_text("")

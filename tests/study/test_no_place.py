@@ -1,4 +1,4 @@
-"""Who finds no place, because the study is closed or full, and what is kept of them."""
+"""People who find no place because the study is closed or full, and what is kept about them."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import pytest
 
 from game.journal.records import PhaseEnded, PracticeChecked, SessionEnded
 from game.study.design import BLOCK
-from game.study.dropout import drop_out
 from game.study.folder import Identity, Study
+from game.study.lab.leaving import drop_out
+from game.study.lab.study_status import StatusReader
 from game.study.ledger import ending_of, slot_of
-from game.study.overview import StatusReader
 from tests.study.people import cut_off, journal_of, small_study, take_part
 
 P05 = Identity("live", "P05")
@@ -31,7 +31,7 @@ CLOSE_OR_FILL = pytest.mark.parametrize(
 
 
 @CLOSE_OR_FILL
-def test_a_newcomer_without_a_place_is_told_at_login_and_leaves_nothing(
+def test_a_newcomer_without_a_place_is_told_at_login_and_nothing_is_recorded(
     tmp_path: Path, end: Callable[[Study], None]
 ) -> None:
     study = small_study(tmp_path / "study")
@@ -48,7 +48,7 @@ def test_a_newcomer_without_a_place_is_told_at_login_and_leaves_nothing(
 
 @CLOSE_OR_FILL
 @pytest.mark.parametrize("here", ["agree", "look"])
-def test_who_is_in_consent_or_practice_when_the_places_end_is_told_after_it(
+def test_people_in_consent_or_practice_when_places_run_out_are_told_after_practice(
     tmp_path: Path, end: Callable[[Study], None], here: str
 ) -> None:
     study = small_study(tmp_path / "study")
@@ -72,7 +72,9 @@ def test_who_is_in_consent_or_practice_when_the_places_end_is_told_after_it(
     assert StatusReader(study.folder).look().totals.turned_away == 1
 
 
-def test_who_comes_back_in_mid_practice_to_a_closed_study_is_told_at_login(tmp_path: Path) -> None:
+def test_people_who_come_back_to_a_closed_study_in_mid_practice_are_told_at_login(
+    tmp_path: Path,
+) -> None:
     study = small_study(tmp_path / "study")
     cut_off(study, P05, at="play")
     study.ledger.close()
@@ -82,7 +84,7 @@ def test_who_comes_back_in_mid_practice_to_a_closed_study_is_told_at_login(tmp_p
         assert journal_of(study, P05).entries[-1].record == SessionEnded("turned_away")
 
 
-def test_who_has_a_place_finishes_after_the_study_was_closed(tmp_path: Path) -> None:
+def test_people_with_a_place_finish_after_the_study_is_closed(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
     cut_off(study, P05, at="memorise")
     study.ledger.close()
@@ -90,7 +92,7 @@ def test_who_has_a_place_finishes_after_the_study_was_closed(tmp_path: Path) -> 
     assert ending_of(study.ledger.entries(), "P05", "live") == "finished"
 
 
-def test_who_was_turned_away_goes_on_where_a_place_is_left_later(tmp_path: Path) -> None:
+def test_people_who_were_turned_away_continue_once_a_place_is_free(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study", refill_dropouts="true")
     cut_off(study, P05, at="look")
     fill(study)
@@ -103,7 +105,7 @@ def test_who_was_turned_away_goes_on_where_a_place_is_left_later(tmp_path: Path)
     assert ending_of(study.ledger.entries(), "P05", "live") == "finished"
 
 
-def test_a_closed_or_full_study_may_be_tried_as_a_pilot(tmp_path: Path) -> None:
+def test_a_closed_or_full_study_can_be_tried_as_a_pilot(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
     fill(study)
     study.ledger.close()

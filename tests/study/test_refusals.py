@@ -1,4 +1,4 @@
-"""What participants read who cannot take part: the study's words, and never a path or a mend."""
+"""What participants who cannot take part read: the study's words, never a path or a hint."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ import pytest
 from game.journal.records import PracticeChecked, SessionEnded
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.pages import PageScreen
-from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study
+from game.study.lab.leaving import drop_out, withdraw
 from game.study.ledger import ending_of
 from game.study.texts import shipped_texts
-from game.study.withdraw import withdraw
 from tests.study.people import cut_off, journal_of, small_study, take_part
 from tests.study.server import ANA, BY_KEY, SSH, SSHD, Server, login
 from tests.terminal import Terminal
@@ -36,7 +35,7 @@ def unfit_words(study: Study, shown: str) -> list[str]:
 
 
 def at_login(study: Study, columns: int = 120, rows: int = 40) -> Terminal:
-    """What the server runs for P01, who logs in by a key of their own."""
+    """What the server runs for P01, who logs in with their own key."""
     command: list[str | Path] = [ANA, "study", "login", study.folder]
     env = {"ANA_PARTICIPANT": P01.participant}
     return Terminal(command, columns=columns, rows=rows, env=env)
@@ -80,7 +79,7 @@ def test_the_words_for_a_newcomer_need_no_large_window(study: Study) -> None:
         assert terminal.wait() == 0
 
 
-def test_who_practises_while_the_study_is_closed_is_told_after_it(study: Study) -> None:
+def test_people_who_practise_while_the_study_is_closed_are_told_afterwards(study: Study) -> None:
     cut_off(study, P01, at="answer", times=len(study.items.check))
     last = study.items.check[-1]
     with at_login(study) as terminal:
@@ -115,7 +114,7 @@ def test_a_drop_out_whose_place_was_given_away_is_told_the_same(tmp_path: Path) 
         assert unfit_words(study, shown + terminal.text()) == []
 
 
-def test_who_has_withdrawn_is_told_what_became_of_it(study: Study) -> None:
+def test_people_who_have_withdrawn_are_told_that_their_data_are_deleted(study: Study) -> None:
     take_part(study, P01)
     withdraw(study, P01)
     with at_login(study) as terminal:
@@ -126,7 +125,7 @@ def test_who_has_withdrawn_is_told_what_became_of_it(study: Study) -> None:
         assert unfit_words(study, shown + terminal.text()) == []
 
 
-def test_trouble_is_told_without_where_it_lies(study: Study) -> None:
+def test_problems_are_shown_without_paths(study: Study) -> None:
     take_part(study, P01)
     path = study.folder / "study.toml"
     path.write_text(path.read_text().replace("label_seconds = 6", "label_seconds = 7"))
@@ -140,7 +139,7 @@ def test_trouble_is_told_without_where_it_lies(study: Study) -> None:
 
 
 @pytest.mark.parametrize("spoilt", ["study.toml", "texts.toml"])
-def test_a_study_that_cannot_be_opened_is_told_in_a_participants_words(
+def test_a_study_that_cannot_be_opened_says_so_in_the_studys_words(
     study: Study, spoilt: str
 ) -> None:
     path = study.folder / spoilt
@@ -161,13 +160,13 @@ def test_a_translated_study_asks_for_the_id_in_its_own_words(study: Study) -> No
     with Terminal(command, columns=120, rows=40) as terminal:
         terminal.wait_for("Ihre Teilnehmernummer:")
         terminal.write(b"a b\r")
-        assert unfit_words(study, terminal.wait_for("'a b' cannot be")) == []
+        assert unfit_words(study, terminal.wait_for("'a b' is not")) == []
 
 
-def test_an_id_in_no_known_letters_is_asked_for_again(study: Study) -> None:
+def test_an_undecodable_id_is_asked_for_again(study: Study) -> None:
     command: list[str | Path] = [ANA, "study", "login", study.folder]
     env = {"PYTHONIOENCODING": "utf-8:strict"}
     with Terminal(command, columns=120, rows=40, env=env) as terminal:
         terminal.wait_for(study.texts.login.ask)
         terminal.write(b"\xe4\r")
-        assert unfit_words(study, terminal.wait_for("cannot be a participant's ID")) == []
+        assert unfit_words(study, terminal.wait_for("is not a participant ID")) == []

@@ -28,7 +28,7 @@ def study_toml(tmp_path: Path) -> Path:
     return path
 
 
-def test_the_template_is_sound_and_hides_score_and_pause(study_toml: Path) -> None:
+def test_the_template_is_valid_and_hides_score_and_pause(study_toml: Path) -> None:
     settings, digest = read_settings(study_toml)
     assert settings.buildings == ("one", "two")
     assert not settings.mission.show_score
@@ -47,12 +47,12 @@ def test_the_template_is_sound_and_hides_score_and_pause(study_toml: Path) -> No
         ("duration_ms = 240000", "duration = 5", "Did you mean duration_ms?"),
         ('controls = "compass"', 'controls = "mouse"', "study.toml, mission.controls: .*'mouse'"),
         ("show_score = false", "", "show_score must be false"),
-        ('"one", "two"', '"one", "one"', "two different"),
+        ('"one", "two"', '"one", "one"', "two buildings must differ"),
         ("[60, 180]", "[180, 60]", "memorise_seconds"),
         ("seed = 1", "seed = ", "not TOML"),
     ],
 )
-def test_a_bad_setting_is_named_with_its_mend(
+def test_a_bad_setting_is_named_with_its_hint(
     study_toml: Path, was: str, becomes: str, told: str
 ) -> None:
     study_toml.write_text(study_toml.read_text().replace(was, becomes))
@@ -65,7 +65,7 @@ def test_a_missing_file_says_how_to_make_one(tmp_path: Path) -> None:
         read_settings(tmp_path / "study.toml")
 
 
-def test_the_texts_are_sound_and_ask_what_the_paper_asked() -> None:
+def test_the_texts_are_valid_and_ask_what_the_paper_asked() -> None:
     texts, items = read_texts(TEMPLATE / "texts.toml"), read_items(TEMPLATE / "items.toml")
     assert "18" in texts.consent.agree
     assert [slider.id for slider in items.slider] == [

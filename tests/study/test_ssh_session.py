@@ -1,4 +1,4 @@
-"""One participant does the whole study over SSH, by keys alone, and is cut off in mid-mission.
+"""One participant does the whole study over SSH, using only keys, and is cut off in mid-mission.
 
 The journal must then hold what was pressed and answered, and nothing else.
 """
@@ -14,8 +14,10 @@ from typing import TypeVar
 import pytest
 
 from game.journal.folders import JOURNAL
+from game.journal.history import Step
 from game.journal.reader import Entry
 from game.journal.records import (
+    ROUNDS,
     Allocated,
     Consented,
     Debriefed,
@@ -38,9 +40,9 @@ from game.journal.records import (
 from game.study.folder import Identity, Study
 from game.study.ledger import SlotTaken, ending_of
 from game.study.lock import SessionBusy, SessionLock
-from game.study.practice import LEGS, legs
-from game.study.protocol import ROUNDS, TIMELINE, Step
-from game.study.study_session import session_seed
+from game.study.protocol.practice import LEGS, practice_legs
+from game.study.protocol.study_session import session_seed
+from game.study.protocol.timeline import TIMELINE
 from game.world.events import Acted, Action, MissionEnded, Rescued
 from tests.study.participant import PATIENCE_S, TerminalParticipant
 from tests.study.people import journal_of, small_study
@@ -75,7 +77,7 @@ REASON = "It was clearer where to go"
 
 @dataclass(frozen=True)
 class TakenPart:
-    """What P01 did; of each round the names given to rooms and the keys of the mission."""
+    """What P01 did: for each round, the names given to rooms and the keys of the mission."""
 
     labels: tuple[dict[str, str], dict[str, str]]
     pressed: tuple[list[Action], list[Action]]
@@ -84,7 +86,7 @@ class TakenPart:
     entries: tuple[Entry, ...]
 
     def of(self, kind: type[Kind], *steps: Step) -> list[Kind]:
-        """The records of a kind, of these steps or of all."""
+        """The records of a kind, in these steps or in all."""
         return [
             entry.record
             for entry in self.entries
@@ -114,7 +116,7 @@ def taken_part(study: Study, tmp_path_factory: pytest.TempPathFactory) -> TakenP
 
 
 def until_free(study: Study) -> None:
-    """Wait until the program behind the broken line has left the session."""
+    """Wait until the program behind the dropped connection has left the session."""
     until = time.monotonic() + PATIENCE_S
     while True:
         try:
@@ -128,7 +130,7 @@ def until_free(study: Study) -> None:
 
 
 def take_part(server: Server, study: Study) -> TakenPart:
-    """From login to the last page, with a broken line and a second login in between."""
+    """From login to the last page, with a dropped connection and a second login in between."""
     with login(server, "p01") as terminal:
         person = TerminalParticipant(terminal, study, P01)
         person.preflight()
@@ -146,7 +148,7 @@ def take_part(server: Server, study: Study) -> TakenPart:
     until_free(study)
     with login(server, "p01") as terminal:
         person = TerminalParticipant(terminal, study, P01)
-        terminal.wait_for("The mission was cut off")
+        terminal.wait_for("The mission was interrupted")
         person.slide(SLIDERS[0])
         person.rate(STATEMENTS[0])
         person.memorise()
@@ -167,7 +169,7 @@ def take_part(server: Server, study: Study) -> TakenPart:
     )
 
 
-def test_each_phase_was_gone_through_once_and_the_cut_mission_ends_there(
+def test_each_phase_happened_once_and_the_interrupted_mission_ended(
     taken_part: TakenPart,
 ) -> None:
     ended = [
@@ -179,7 +181,7 @@ def test_each_phase_was_gone_through_once_and_the_cut_mission_ends_there(
     assert ended == [(step, "interrupted" if step == cut else "completed") for step in TIMELINE]
 
 
-def test_the_cut_is_recorded_and_the_session_goes_on_behind_it(
+def test_the_interruption_is_recorded_and_the_session_continues_after_it(
     taken_part: TakenPart, study: Study
 ) -> None:
     hang_up = Interruption("hang_up", signal="SIGHUP")
@@ -206,7 +208,7 @@ def test_preflight_and_consent_are_recorded(taken_part: TakenPart, study: Study)
 
 def test_every_leg_of_practice_was_walked_to_its_end(taken_part: TakenPart, study: Study) -> None:
     practice = Step("practice")
-    planned = legs(study.practice, session_seed(study, P01))
+    planned = practice_legs(study.practice, session_seed(study, P01))
     assert [leg.coach for leg in taken_part.of(MissionStarted, practice)] == [
         leg.spec for leg in planned
     ]

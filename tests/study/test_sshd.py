@@ -11,7 +11,7 @@ import pytest
 
 from game.journal.records import Preflighted, TakenOver
 from game.study.folder import Identity, Study, StudyError
-from game.study.sshd import LoopbackServer, configuration, who_logs_in
+from game.study.lab.sshd import LoopbackServer, configuration, who_logs_in
 from tests.study.participant import TerminalParticipant
 from tests.study.people import cut_off, journal_of, small_study
 from tests.study.server import BY_KEY, SSH, SSHD, Server, login
@@ -99,7 +99,7 @@ def test_the_key_decides_whose_session_it_is() -> None:
         who_logs_in({"ANA_PARTICIPANT": "a b"}, never)
 
 
-def test_an_id_is_asked_for_until_it_is_one() -> None:
+def test_the_id_is_asked_for_until_it_is_valid() -> None:
     answers, told = iter(["; sh", " P07 "]), []
 
     def ask(refused: str) -> str:
@@ -147,7 +147,7 @@ def test_nothing_is_forwarded(server: Server) -> None:
 
 
 @needs_sshd
-def test_a_command_asked_for_is_not_carried_out(server: Server) -> None:
+def test_a_clients_command_is_not_carried_out(server: Server) -> None:
     with login(server, "p01", "-tt", "id; sh") as terminal:
         shown = terminal.wait_for("Before you begin")
         assert "uid=" not in shown
@@ -171,7 +171,7 @@ def test_no_key_leads_out_of_the_study(server: Server, key: str) -> None:
 
 
 @needs_sshd
-def test_nobody_gets_at_another_participants_session(server: Server, study: Study) -> None:
+def test_nobody_can_open_another_participants_session(server: Server, study: Study) -> None:
     pretended = ("SendEnv=ANA_PARTICIPANT", "SendEnv=PYTHONSTARTUP", "SendEnv=TEXTUAL_DRIVER")
     command = server.ssh("p02", options=pretended)
     env = {"ANA_PARTICIPANT": "P01", "TEXTUAL_DRIVER": "os:system"}
@@ -180,7 +180,7 @@ def test_nobody_gets_at_another_participants_session(server: Server, study: Stud
         assert (study.home(P02) / "lock").exists()
     with login(server, "odd") as terminal:
         assert terminal.wait() == 2
-        assert "cannot be a participant's ID" in terminal.text()
+        assert "is not a participant ID" in terminal.text()
 
 
 @needs_sshd
@@ -188,7 +188,7 @@ def test_a_shared_key_asks_for_the_id(server: Server, study: Study) -> None:
     with login(server, "lab") as terminal:
         terminal.wait_for("participant ID")
         terminal.write(b"../P01\r")
-        terminal.wait_for("cannot be a participant's ID")
+        terminal.wait_for("is not a participant ID")
         terminal.write(b"P07\r")
         terminal.wait_for("Before you begin")
         assert (study.home(P07) / "lock").exists()

@@ -11,18 +11,18 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from game.commands.ana_study import group
+from game.commands.ana_study import study_group
 from game.journal.folders import JOURNAL
 from game.journal.reader import read_journal
 from game.study.design import design_cell
-from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, StudyError, open_study
+from game.study.lab.attendance import Attendance, SessionStatus
+from game.study.lab.leaving import drop_out, withdraw
+from game.study.lab.status_text import age
+from game.study.lab.study_status import StatusReader, breakdown
 from game.study.ledger import NoPlace, Unblinded
 from game.study.lock import LOCK, SessionLock
-from game.study.overview import ExclusionRule, StatusReader, breakdown
-from game.study.roll import Roll, SessionStatus
-from game.study.statustext import age
-from game.study.withdraw import withdraw
+from game.tables.exclusions import ExclusionRule
 from tests.study.people import cut_off, small_study, take_part
 from tests.study.server import ANA
 from tests.terminal import Terminal
@@ -37,12 +37,12 @@ def study(tmp_path: Path) -> Study:
 
 
 def seen(study: Study, now: datetime | None = None) -> dict[str, SessionStatus]:
-    return {one.participant: one for one in Roll(study.folder).look(study.settings, now)}
+    return {one.participant: one for one in Attendance(study.folder).look(study.settings, now)}
 
 
 def command(study: Study, *arguments: str) -> Result:
     return CliRunner().invoke(
-        group, ["status", str(study.folder), *arguments], standalone_mode=False
+        study_group, ["status", str(study.folder), *arguments], standalone_mode=False
     )
 
 
@@ -62,10 +62,10 @@ def test_each_session_is_where_it_is(study: Study) -> None:
     assert (third.state, third.phase, third.round) == ("cut off", "label", 1)
     assert third.limit_s == study.settings.label_seconds
     assert third.silent_s == pytest.approx(5)
-    assert third.problems == ("its process is gone; the participant may log in again",)
+    assert third.problems == ("the program ended unexpectedly; the participant can log in again",)
 
 
-def test_who_resumes_is_counted(study: Study) -> None:
+def test_resumed_sessions_are_counted(study: Study) -> None:
     cut_off(study, P01, at="label")
     take_part(study, P01)
     now = seen(study)["P01"]
@@ -94,7 +94,7 @@ def test_in_a_copy_of_a_study_nobody_takes_part(study: Study, tmp_path: Path) ->
     lock.release()
 
 
-def test_before_consent_there_is_only_somebody_there(study: Study) -> None:
+def test_before_consent_the_status_shows_only_that_someone_is_there(study: Study) -> None:
     lock = SessionLock(study.home(P01))
     (session,) = seen(study).values()
     assert (session.state, session.phase, session.silent_s) == ("taking part", "consent", None)
@@ -102,7 +102,7 @@ def test_before_consent_there_is_only_somebody_there(study: Study) -> None:
     assert seen(study) == {}
 
 
-def test_the_clock_of_memorising_would_tell_the_allocation_and_is_not_shown(study: Study) -> None:
+def test_the_memorise_clock_is_hidden_because_it_reveals_the_allocation(study: Study) -> None:
     cut_off(study, P01, at="memorise", times=3)
     now = seen(study)["P01"]
     assert (now.phase, now.clock_s, now.limit_s) == ("memorise", None, None)
@@ -118,7 +118,7 @@ def test_the_clock_of_a_mission_is_what_was_played(study: Study) -> None:
 
 def test_only_what_was_added_is_read_again(study: Study) -> None:
     take_part(study, P01)
-    reader = Roll(study.folder)
+    reader = Attendance(study.folder)
     first = reader.look(study.settings)
     journal = study.home(P01) / JOURNAL
     whole = journal.read_bytes()
@@ -135,7 +135,7 @@ def test_a_line_that_is_being_written_is_waited_for(study: Study) -> None:
     cut = whole.rindex(b"\n", 0, -1) + 20
     journal.write_bytes(whole[:cut])
     lock = SessionLock(study.home(P01))
-    roll = Roll(study.folder)
+    roll = Attendance(study.folder)
     (before,) = roll.look(study.settings, written_at(study, P01))
     assert (before.state, before.problems) == ("taking part", ())
     with journal.open("ab") as file:
@@ -145,7 +145,7 @@ def test_a_line_that_is_being_written_is_waited_for(study: Study) -> None:
     lock.release()
 
 
-def test_what_is_wrong_with_a_journal_is_told(study: Study) -> None:
+def test_problems_with_a_journal_are_reported(study: Study) -> None:
     take_part(study, P01)
     take_part(study, P02)
     journal = study.home(P01) / JOURNAL
@@ -155,11 +155,11 @@ def test_what_is_wrong_with_a_journal_is_told(study: Study) -> None:
         file.write(b'{"seq":9')
     now = seen(study)
     assert now["P01"].problems == ("1 lines of the journal cannot be read",)
-    assert now["P02"].problems == ("the journal ends in 8 torn bytes; they do not count",)
+    assert now["P02"].problems == ("the journal ends in an unfinished line (8 bytes, ignored)",)
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_a_journal_that_may_not_be_read_is_told(study: Study) -> None:
+def test_an_unreadable_journal_is_reported(study: Study) -> None:
     take_part(study, P01)
     (study.home(P01) / JOURNAL).chmod(0)
     assert "cannot be read" in StatusReader(study.folder).look().problems[0]
@@ -196,18 +196,18 @@ def test_totals_are_of_live_sessions(study: Study) -> None:
 def test_a_drop_out_keeps_what_was_recorded(study: Study) -> None:
     cut_off(study, P01, at="label")
     take_part(study, P02)
-    done = CliRunner().invoke(group, ["drop", str(study.folder), "P01"])
-    assert done.stdout == "P01 dropped out; the place stays empty (study.toml)\n"
+    done = CliRunner().invoke(study_group, ["drop", str(study.folder), "P01"])
+    assert done.stdout == "P01 dropped out; the place stays empty (refill_dropouts in study.toml)\n"
     assert StatusReader(study.folder).look().totals.dropped == 1
     assert (study.home(P01) / JOURNAL).exists()
     drop_out(study, P01)
-    with pytest.raises(StudyError, match="P02 has finished"):
+    with pytest.raises(StudyError, match=r"P02 has already ended \(finished\)"):
         drop_out(study, P02)
-    with pytest.raises(StudyError, match="holds no place"):
+    with pytest.raises(StudyError, match="has no place"):
         drop_out(study, P03)
 
 
-def test_nothing_tells_how_anybody_was_allocated(study: Study) -> None:
+def test_nothing_reveals_anyones_allocation(study: Study) -> None:
     for identity in (P01, P02):
         take_part(study, identity)
     cut_off(study, P03, at="memorise", times=2)
@@ -216,7 +216,7 @@ def test_nothing_tells_how_anybody_was_allocated(study: Study) -> None:
     assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
 
 
-def test_unblinding_leaves_its_trace_before_it_tells(study: Study) -> None:
+def test_unblinding_is_recorded_before_anything_is_shown(study: Study) -> None:
     for identity in (P01, P02):
         take_part(study, identity)
     told = json.loads(command(study, "--json", "--unblind").stdout)
@@ -231,7 +231,7 @@ def test_unblinding_leaves_its_trace_before_it_tells(study: Study) -> None:
     assert entry.why == "ana study status --unblind"
 
 
-def test_who_was_turned_away_is_counted_where_there_is_somebody(study: Study) -> None:
+def test_people_turned_away_are_counted_if_there_are_any(study: Study) -> None:
     cut_off(study, P01, at="look")
     assert "turned away" not in command(study).stdout
     study.ledger.close()
@@ -244,9 +244,9 @@ def test_who_was_turned_away_is_counted_where_there_is_somebody(study: Study) ->
     assert "Look at" not in told
 
 
-def test_a_closed_study_tells_everything_and_takes_nobody(study: Study) -> None:
+def test_a_closed_study_shows_everything_and_admits_nobody(study: Study) -> None:
     take_part(study, P01)
-    assert CliRunner().invoke(group, ["close", str(study.folder)]).exit_code == 0
+    assert CliRunner().invoke(study_group, ["close", str(study.folder)]).exit_code == 0
     assert "design_cells" in json.loads(command(study, "--json").stdout)
     assert not [entry for entry in study.ledger.entries() if isinstance(entry, Unblinded)]
     with pytest.raises(NoPlace, match="closed"):
@@ -259,10 +259,10 @@ def test_a_closed_study_tells_everything_and_takes_nobody(study: Study) -> None:
 
 def test_exclusions_follow_the_rules_given(study: Study) -> None:
     take_part(study, P01)
-    rules = [ExclusionRule("all", "Everybody.", "segments", 0)]
+    rules = [ExclusionRule("all", "Everybody.", "a test", "segments", 0)]
     (cell,) = breakdown(study.folder, rules, "a test")
     assert cell.excluded == {"all": 1}
-    lenient = [ExclusionRule("all", "Everybody.", "segments", 1)]
+    lenient = [ExclusionRule("all", "Everybody.", "a test", "segments", 1)]
     (cell,) = breakdown(study.folder, lenient, "a test")
     assert cell.excluded == {"all": 0}
 
@@ -271,11 +271,11 @@ def test_exclusions_follow_the_rules_given(study: Study) -> None:
     ("seconds", "words"),
     [(None, "-"), (0, "0 s"), (119, "119 s"), (120, "2 min"), (7_200, "2 h"), (200_000, "2 d")],
 )
-def test_an_age_is_told_in_its_unit(seconds: float | None, words: str) -> None:
+def test_an_age_is_shown_in_a_suitable_unit(seconds: float | None, words: str) -> None:
     assert age(seconds) == words
 
 
-def test_watching_follows_and_leaves_with_q(study: Study) -> None:
+def test_watching_follows_the_study_and_q_quits(study: Study) -> None:
     take_part(study, P01)
     follow: list[str | Path] = [ANA, "study", "status", study.folder, "--watch"]
     with Terminal(follow, columns=100, rows=24) as terminal:
@@ -291,9 +291,9 @@ def test_watching_follows_and_leaves_with_q(study: Study) -> None:
     assert b"P01" not in repainted
 
 
-def test_watching_needs_a_terminal_and_goes_alone(study: Study) -> None:
+def test_watching_needs_a_terminal_and_no_other_option(study: Study) -> None:
     assert "not a terminal" in str(command(study, "--watch").exception)
-    assert "goes alone" in str(command(study, "--watch", "--json").exception)
+    assert "cannot be combined" in str(command(study, "--watch", "--json").exception)
 
 
 def test_now_is_the_wall_clock(study: Study) -> None:

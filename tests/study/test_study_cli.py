@@ -1,4 +1,4 @@
-"""`ana study` from the command line."""
+"""`ana study` on the command line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from game.study.ledger import Unblinded, ending_of
 from tests.study.people import P01, small_study, take_part
 
 
-def test_a_study_is_made_and_the_next_step_told(
+def test_a_study_is_created_and_the_next_step_is_shown(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "study"
@@ -22,7 +22,7 @@ def test_a_study_is_made_and_the_next_step_told(
     assert f"ana study run {folder} --participant TEST --pilot" in capsys.readouterr().out
     assert (open_study(folder).settings.seed, open_study(folder).settings.blocks) == (3, 2)
     assert main(["study", "new", str(folder)]) == 2
-    assert "something in it already" in capsys.readouterr().err
+    assert "the folder is not empty" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_a_study_is_made_and_the_next_step_told(
         ([], "--participant"),
     ],
 )
-def test_who_cannot_take_part_is_told_why(
+def test_people_who_cannot_take_part_are_told_why(
     copy: Study, capsys: pytest.CaptureFixture[str], arguments: list[str], told: str
 ) -> None:
     assert main(["study", "run", str(copy.folder), *arguments]) == 2
@@ -46,23 +46,25 @@ def test_a_change_is_amended(copy: Study, capsys: pytest.CaptureFixture[str]) ->
     path.write_text(path.read_text().replace("label_seconds = 6", "label_seconds = 8"))
     assert main(["study", "amend", str(copy.folder), "--why", "too short"]) == 0
     assert main(["study", "amend", str(copy.folder), "--why", "too short"]) == 2
-    assert "was not changed" in capsys.readouterr().err
+    assert "has not changed" in capsys.readouterr().err
 
 
 def test_withdrawal(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot"]) == 0
-    assert "what was recorded is deleted" in capsys.readouterr().out
+    assert "their data are deleted" in capsys.readouterr().out
     assert not copy.home(P01).exists()
     assert ending_of(copy.ledger.entries(), "P01", "pilot") == "withdrawn"
     assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot"]) == 0
     assert "nothing had been recorded" in capsys.readouterr().out
 
 
-def test_closing_says_what_becomes_of_whom(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
+def test_closing_says_what_happens_to_everyone(
+    copy: Study, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["study", "close", str(copy.folder)]) == 0
     told = capsys.readouterr().out
-    assert "Who has a place may finish" in told
-    assert "newcomers at login" in told
+    assert "Anyone who has a place can finish" in told
+    assert "newcomers when they log in" in told
 
 
 # --- analysing a live study ---------------------------------------------------------------------
@@ -94,13 +96,13 @@ def test_analysing_an_open_study_unblinds_it_as_an_export_does(
 ) -> None:
     assert main(["study", "export", str(live.folder), str(tmp_path / "dataset")]) == 0
     words = capsys.readouterr().err
-    assert words == "The study is open: the ledger records that it was unblinded.\n"
+    assert words == "The study is still open: the ledger now records that it was unblinded.\n"
     assert analyse(live) == 2, "one participant is too few for every model"
     assert capsys.readouterr().err == words
     assert unblindings(live) == ["ana study export", "ana analyse"]
 
 
-def test_what_conceals_nothing_is_not_recorded(
+def test_analysing_a_closed_study_or_pilots_is_not_recorded(
     live: Study, capsys: pytest.CaptureFixture[str]
 ) -> None:
     analyse(live, "--mode", "pilot")
@@ -110,13 +112,13 @@ def test_what_conceals_nothing_is_not_recorded(
     assert capsys.readouterr().err == ""
 
 
-def test_an_analysis_that_tells_nothing_is_not_recorded(live: Study, tmp_path: Path) -> None:
+def test_a_failed_analysis_is_not_recorded(live: Study, tmp_path: Path) -> None:
     source, out = str(live.folder), str(tmp_path / "results.json")
     assert main(["analyse", source, "--json", out, "--quiz", "quiz.csv"]) == 2
     assert unblindings(live) == []
 
 
-def test_a_copy_whose_ledger_cannot_be_written_is_analysed_all_the_same(
+def test_a_copy_with_a_read_only_ledger_is_still_analysed(
     live: Study, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = os.open

@@ -1,4 +1,4 @@
-"""Journals as tidy tables: what a row says is what the records said."""
+"""Journals as tidy tables: a row says what the records say."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from game.journal.records import (
 from game.journal.sink import MemorySink
 from game.journal.writer import Journal
 from game.session.playing import begin_mission
-from game.tables.columns import cell, cells, column, columns
+from game.tables.columns import cell, cells, col, columns
 from game.tables.session_tables import (
     LIKERT_ITEMS,
     MENTAL_STATES,
@@ -197,7 +197,7 @@ def test_a_statement_left_out_leaves_no_sum() -> None:
     assert (row.pref1, row.pref2, row.preference, row.victims) == (5, None, None, None)
 
 
-def test_the_preferred_round_is_told_as_its_instructor() -> None:
+def test_the_preferred_round_is_translated_into_its_instructor() -> None:
     written = first_round()
     written.journal.enter("preference")
     written.write(
@@ -220,7 +220,7 @@ def test_the_preferred_round_is_told_as_its_instructor() -> None:
     assert "I am P. Body and liked it" in list(cells(text))
 
 
-def test_who_was_never_allocated_has_no_rounds() -> None:
+def test_a_participant_never_allocated_has_no_rounds() -> None:
     written = Written()
     written.journal.enter("practice")
     written.write(PhaseStarted(None))
@@ -234,7 +234,7 @@ def test_who_was_never_allocated_has_no_rounds() -> None:
     )
 
 
-def test_who_found_no_place_is_told_apart_until_there_is_one() -> None:
+def test_a_participant_without_a_place_is_marked_until_there_is_one() -> None:
     written = Written()
     written.journal.enter("practice")
     written.write(SessionEnded("turned_away"))
@@ -251,7 +251,7 @@ def test_a_round_without_allocation_is_refused() -> None:
         _ = written.tables
 
 
-def test_sessions_are_put_together_in_their_order() -> None:
+def test_sessions_are_combined_in_their_order() -> None:
     one, other = first_round().tables, Written("P00").tables
     whole = combined([one, other])
     assert [row.participant for row in whole.participants] == ["P01", "P00"]
@@ -266,7 +266,7 @@ def test_a_column_means_the_same_in_every_table() -> None:
     assert {name: told for name, told in meanings.items() if len(told) > 1} == {}
 
 
-def test_every_column_says_what_it_means() -> None:
+def test_every_column_has_a_meaning_and_a_unit() -> None:
     for row in ROW_TYPES.values():
         for one in columns(row):
             assert one.meaning.endswith("."), one
@@ -274,13 +274,13 @@ def test_every_column_says_what_it_means() -> None:
             assert one.unit or not one.name.endswith("_ms"), one
 
 
-def test_a_column_that_is_not_described_is_refused() -> None:
+def test_a_column_without_a_description_is_refused() -> None:
     class Bare(msgspec.Struct):
         number: int
 
     with pytest.raises(TypeError, match="number"):
         columns(Bare)
-    assert column("A number.", "cells").extra == {"unit": "cells"}
+    assert col("A number.", "cells").extra == {"unit": "cells"}
 
 
 @given(st.one_of(st.text(), st.integers(), st.booleans(), st.none(), st.floats(allow_nan=False)))

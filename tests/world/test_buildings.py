@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable
+from contextlib import nullcontext
 from itertools import pairwise
 from pathlib import Path
 from statistics import mean
@@ -11,6 +12,7 @@ import pytest
 from game.cli import main
 from game.coach.route import RoutePlanner
 from game.errors import AnaError
+from game.study.folder import new_study, open_study
 from game.world import load_building
 from game.world.building import Building, Severity
 from game.world.fitness import shortcomings
@@ -78,7 +80,7 @@ def test_mission_buildings_are_balanced(measure: Callable[[Building], float]) ->
 
 
 def planned_rescues(name: str) -> Counter[Severity]:
-    """Whom a follower who loses no time rescues, by the route planned at the start."""
+    """The victims that a follower who loses no time rescues on the route planned at the start."""
     building = load_building(name)
     settings = MissionSettings()
     waiting = {victim.id: victim for victim in building.victims}
@@ -105,7 +107,7 @@ def test_practice_building_is_small_and_teaches_counting() -> None:
         assert len(on_this_side) >= 3
 
 
-def test_the_example_in_the_documents_is_sound() -> None:
+def test_the_example_in_the_docs_is_valid() -> None:
     page = (Path(__file__).parents[2] / "docs" / "building-format.md").read_text()
     example = next(block for block in page.split("```") if "\nplan:\n" in block).lstrip()
     building = parse_building(example)
@@ -146,7 +148,7 @@ class TestPicture:
         assert drawn["◆"] + drawn["●"] == len(building.victims)
         assert drawn["▒"] == 2 * sum(len(door.cells) for door in building.doors)
 
-    def test_half_blocks_show_two_cells_a_character(self) -> None:
+    def test_half_blocks_show_two_cells_per_character(self) -> None:
         building = load_building("practice")
         rows = picture(building, HALF_BLOCKS)
         assert len(rows) == building.plan.height // 2
@@ -176,12 +178,14 @@ class TestCommands:
         assert main(["building", "show", "foundy"]) == 2
         assert "Did you mean foundry?" in capsys.readouterr().err
 
-    def test_check_sound(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_check_without_problems(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
         path = tmp_path / "mine.txt"
         path.write_text(load_building("practice").text)
         assert main(["building", "check", str(path)]) == 0
         assert capsys.readouterr().out == (
-            f"{path}: sound (41 x 20 cells, 8 rooms, 8 doors, 6 victims (2 red))\n"
+            f"{path}: no problems (41 x 20 cells, 8 rooms, 8 doors, 6 victims (2 red))\n"
         )
 
     def test_check_lists_every_problem(
@@ -203,3 +207,33 @@ class TestCommands:
         load_building(path)
         assert main(["building", "check", str(path)]) == 2
         assert "'Polyclinic' does not fit its room" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("width", "fits"), [(98, True), (99, False), (110, False), (121, False)])
+def test_check_and_a_study_agree_on_what_fits_the_screen(
+    tmp_path: Path, width: int, fits: bool
+) -> None:
+    text = f"""name: Hall
+
+plan:
+{"#" * width}
+#........#{"." * (width - 11)}#
+#.A......#{"." * (width - 11)}#
+#........#{"." * (width - 11)}#
+#.o......+>{"." * (width - 12)}#
+{"#" * width}
+
+legend:
+> = start facing east
+o = blue victim
+A = room Annex
+"""
+    path = tmp_path / "hall.txt"
+    path.write_text(text)
+    assert (main(["building", "check", str(path)]) == 0) is fits
+    folder = tmp_path / "study"
+    new_study(folder, seed=1, blocks=1)
+    settings = (folder / "study.toml").read_text().replace('"foundry"', f'"{path}"')
+    (folder / "study.toml").write_text(settings)
+    with nullcontext() if fits else pytest.raises(AnaError, match="more than the map"):
+        open_study(folder)

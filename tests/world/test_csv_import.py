@@ -1,4 +1,4 @@
-"""Grids of 0, 1 and 2: with a legend beside them, furnished from a seed, and the published maps."""
+"""Grids of 0, 1 and 2: with a legend beside them, furnished from a seed, and whole offices."""
 
 from collections import Counter
 from pathlib import Path
@@ -14,7 +14,7 @@ from game.world.geometry import Heading
 from game.world.reading import parse_building
 from game.world.regions import reachable
 
-PEER_MAPS = Path(__file__).resolve().parents[2].parent / "shared" / "peer-maps"
+REFERENCE = Path(__file__).resolve().parents[1] / "reference"
 
 GRID = """\
 1,1,1,1,1,1,1,1,1
@@ -64,9 +64,9 @@ class TestLegend:
         [
             ("room Attic at 3,1", "line 8, column 15: 3,1 is not a floor cell of the 9 x 9 grid"),
             ("red victim at 9,1", "line 8, column 15: 9,1 is not a floor cell of the 9 x 9 grid"),
-            ("start at 4,1", "line 8, column 1: 'start at 4,1' places nothing"),
-            ("blue victim at 1,2 facing east", "line 8, column 1: .* places nothing"),
-            ("green victim at 1,2", "line 8, column 1: .* places nothing"),
+            ("start at 4,1", "line 8, column 1: 'start at 4,1' is not a valid line"),
+            ("blue victim at 1,2 facing east", "line 8, column 1: .* is not a valid line"),
+            ("green victim at 1,2", "line 8, column 1: .* is not a valid line"),
             ("room copy room at 1,6", "line 8, column 1: .*'copy room' is already used on line 4"),
         ],
     )
@@ -77,22 +77,28 @@ class TestLegend:
 
     def test_faults_of_a_place_name_the_grid(self, grid: Path) -> None:
         grid.with_name("old.legend").write_text(LEGEND + "red victim at 6,7")
-        message = r"old\.csv, line 8, column 7: the red victim lies in no named room"
+        message = r"old\.csv, line 8, column 7: the red victim is not in a named room"
         with pytest.raises(BuildingError, match=message):
             load_building(grid)
 
     @pytest.mark.parametrize(
         ("more", "message"),
         [
-            ("blue victim at 2,1", "line 2, column 3: the blue victim lies where something else"),
-            ("red victim at 1,1", "line 2, column 2: the red victim lies where something else"),
+            (
+                "blue victim at 2,1",
+                "line 2, column 3: the blue victim is on a cell",
+            ),
+            (
+                "red victim at 1,1",
+                "line 2, column 2: the red victim is on a cell",
+            ),
             (
                 "".join(f"blue victim at {x},{y}\n" for x in (6, 7) for y in (3, 4)),
-                "line 5, column 7: 'Attic' has no cell to spare",
+                "line 5, column 7: 'Attic' has no free cell",
             ),
         ],
     )
-    def test_one_thing_a_cell(self, grid: Path, more: str, message: str) -> None:
+    def test_one_thing_per_cell(self, grid: Path, more: str, message: str) -> None:
         attic = "blue victim at 6,5\n" if "6,3" in more else ""
         legend = LEGEND.replace("start at 4,1", "start at 1,1") + attic + more
         grid.with_name("old.legend").write_text(legend)
@@ -109,7 +115,7 @@ class TestGrid:
     @pytest.mark.parametrize(
         ("text", "message"),
         [
-            (GRID.replace("1,0,0,2", "1,0,3,2", 1), "line 3, column 3: '3' is no tile"),
+            (GRID.replace("1,0,0,2", "1,0,3,2", 1), "line 3, column 3: '3' is not a tile"),
             (GRID.replace("1,0,0,2,0,1,1,1,1", "1,0,0,2,0,1,1,1"), "line 3, column 9: .* 8 values"),
             (
                 GRID.replace("1,0,0,2", "0,0,0,2", 1),
@@ -143,21 +149,18 @@ class TestFurnishing:
             assert building.start in hallway
             assert len(building.rooms) == 3
 
-    def test_no_more_victims_than_there_is_room_for(self, grid: Path) -> None:
+    def test_no_more_victims_than_there_is_space_for(self, grid: Path) -> None:
         """18 room cells, of which each of three rooms keeps its label cell free."""
         victims = load_building(grid).victims
         assert len(victims) == 15
         assert len({victim.cell for victim in victims}) == 15
 
 
-@pytest.mark.parametrize("number", [1, 2])
+@pytest.mark.parametrize(("name", "size"), [("annexe", (75, 45)), ("terraces", (87, 47))])
 @pytest.mark.parametrize("seed", [0, 1])
-def test_published_maps_import(number: int, seed: int) -> None:
-    path = PEER_MAPS / f"building-{number}.csv"
-    if not path.is_file():
-        pytest.skip("the published maps are not here")
-    building = load_building(path, seed)
-    assert (building.plan.width, building.plan.height) == (95, 52)
+def test_whole_grids_import(name: str, size: tuple[int, int], seed: int) -> None:
+    building = load_building(REFERENCE / f"{name}.csv", seed)
+    assert (building.plan.width, building.plan.height) == size
     assert len(building.rooms) >= 20
     assert len(building.victims) == VICTIMS
     assert sum(victim.severity is Severity.RED for victim in building.victims) == REDS

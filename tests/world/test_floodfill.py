@@ -1,4 +1,4 @@
-"""The floodfill, against a search that is too simple to be wrong."""
+"""The floodfill, checked against a search that is too simple to be wrong."""
 
 from __future__ import annotations
 

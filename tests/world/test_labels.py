@@ -1,10 +1,10 @@
-"""Room names on the map: inside the room, whole, and in as few lines as can be."""
+"""Room names on the map: inside the room, complete, in as few lines as possible."""
 
 from hypothesis import given
 from hypothesis import strategies as st
 
 from game.world.geometry import Cell
-from game.world.labels import HALF_BLOCKS, SQUARES, LabelLine, Scale, label_lines
+from game.world.labels import HALF_BLOCKS, SQUARES, LabelLine, MapScale, label_lines
 
 
 def block(left: int, top: int, width: int, height: int) -> tuple[Cell, ...]:
@@ -43,7 +43,9 @@ def test_furniture_is_not_written_over() -> None:
     st.sets(st.tuples(st.integers(0, 12), st.integers(0, 8)), min_size=1),
     st.sampled_from([HALF_BLOCKS, SQUARES]),
 )
-def test_every_letter_stands_on_the_room(words: list[str], cells: set[Cell], scale: Scale) -> None:
+def test_every_letter_stands_on_the_room(
+    words: list[str], cells: set[Cell], scale: MapScale
+) -> None:
     lines = label_lines(" ".join(words), sorted(cells), scale)
     if lines:
         assert " ".join(line.text for line in lines) == " ".join(words)

@@ -1,4 +1,4 @@
-"""The rules of a mission (design 4)."""
+"""The rules of a mission."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def outcome(events: list[MissionEvent]) -> Outcome:
     return next(event.outcome for event in events if isinstance(event, Acted))
 
 
-def test_a_move_changes_position_and_heading_and_a_bump_the_heading_alone() -> None:
+def test_a_move_changes_position_and_heading_and_a_bump_only_the_heading() -> None:
     play = mission()
     assert outcome(play.step(Action.WEST, 0)) is Outcome.MOVED
     assert (play.position, play.heading) == ((9, 2), Heading.WEST)

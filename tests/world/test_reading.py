@@ -1,4 +1,4 @@
-"""The building format: what it means, what it refuses, and that writing and reading are inverse."""
+"""The building format: what it means, what it rejects, and that writing inverts reading."""
 
 from itertools import accumulate
 
@@ -106,7 +106,7 @@ class TestMeaning:
             changed(("A = room", "A=room")),
         ],
     )
-    def test_blanks_and_line_ends_mean_nothing(self, text: str) -> None:
+    def test_spaces_at_line_ends_and_line_endings_are_ignored(self, text: str) -> None:
         again = parse_building(text)
         assert (again.plan, again.rooms, again.victims, again.start) == (
             self.building.plan,
@@ -117,7 +117,7 @@ class TestMeaning:
 
 
 class TestRefusals:
-    """Each fault alone is found alone, at its own line and column."""
+    """Each single fault gives a single problem, at its own line and column."""
 
     @pytest.mark.parametrize(
         ("text", "line", "column", "message"),
@@ -153,34 +153,49 @@ class TestRefusals:
                 1,
                 "'mail room' is already used on line 15",
             ),
-            (changed(("#...#..#o.o#", "#...#..#oAo#")), 9, 10, "'Mail Room' stands in two"),
+            (changed(("#...#..#o.o#", "#...#..#oAo#")), 9, 10, "'Mail Room' is in two"),
             (
                 changed(("A..#", "AC.#"), ("; the other one", "C = room Den")),
                 6,
                 3,
-                "in one enclosed",
+                "in the same enclosed",
             ),
             (
                 changed(("A = room Mail Room\n", "A = room Mail Room\nC = room Den\n")),
                 16,
                 1,
-                "'C' does not",
+                "'C' is not in the plan",
             ),
             (
                 changed(("#...+..#.BB#", "#...+.o#.BB#")),
                 10,
                 7,
-                "the blue victim lies in no named room",
+                "the blue victim is not in a named room",
             ),
-            (changed(("Tea & Coffee", "Tea. Coffee")), 17, 1, "'Tea. Coffee' is no room name"),
+            (
+                changed(("Tea & Coffee", "Tea. Coffee")),
+                17,
+                1,
+                "'Tea. Coffee' is not a valid room name",
+            ),
             (
                 changed(("B = room Tea & Coffee", "B room Tea")),
                 17,
                 1,
-                "'B room Tea' is no legend line",
+                "'B room Tea' is not a legend line",
             ),
-            (changed(("room Tea & Coffee", "roum Tea")), 17, 5, "'roum Tea' is no meaning"),
-            (changed(("facing west", "facing up")), 14, 5, "'start facing up' is no meaning"),
+            (
+                changed(("room Tea & Coffee", "roum Tea")),
+                17,
+                5,
+                "'roum Tea' is not a valid meaning",
+            ),
+            (
+                changed(("facing west", "facing up")),
+                14,
+                5,
+                "'start facing up' is not a valid meaning",
+            ),
             (
                 changed(("; the other one", "A = room Den")),
                 16,
@@ -191,7 +206,7 @@ class TestRefusals:
             (changed(("name: Small House\n", "")), 1, 1, "the building has no name"),
             (changed(("name: Small House\n", "name:\n")), 2, 6, "the name is empty"),
             (changed(("\n\nplan:", "\nname: Other\n\nplan:")), 3, 1, "a second name"),
-            (changed(("; two", "two")), 1, 1, "'two rooms on a hallway' is no header line"),
+            (changed(("; two", "two")), 1, 1, "'two rooms on a hallway' is not a header line"),
             ("", 1, 1, "the file is empty"),
             ("\n  \n", 1, 1, "the file is empty"),
             ("name: A\n", 2, 1, "there is no plan"),
@@ -203,7 +218,7 @@ class TestRefusals:
         problem = problem_in(text)
         assert message in problem.message
         assert (problem.line, problem.column) == (line, column)
-        assert problem.mend[0].isupper()
+        assert problem.hint[0].isupper()
 
     def test_unreachable_rooms_and_victims(self) -> None:
         """Behind a door that leads nowhere, a room; in an unnamed cell, a victim."""
@@ -223,11 +238,11 @@ class TestRefusals:
         building, problems = inspect_text(text, "small.txt")
         assert building is None
         assert [problem.line for problem in problems] == [14]
-        mended = text.replace("> = start facing west\n", "")
-        _, problems = inspect_text(mended, "small.txt")
+        fixed = text.replace("> = start facing west\n", "")
+        _, problems = inspect_text(fixed, "small.txt")
         assert [problem.line for problem in problems] == [5, 7, 13, 16]
 
-    def test_the_error_tells_place_fault_mend_and_how_many_more(self) -> None:
+    def test_the_error_tells_place_fault_hint_and_how_many_more(self) -> None:
         text = changed(
             ("############", "#.##########"), (">", "o"), ("> = start facing west\n", "")
         )
@@ -235,7 +250,7 @@ class TestRefusals:
             parse_building(text, "small.txt")
         assert str(caught.value) == (
             "small.txt, line 5, column 2: the north outer wall is open (and 2 more problems). "
-            "Close the outline of the plan with wall"
+            "Draw wall all around the plan"
         )
         assert len(caught.value.problems) == 3
 
@@ -251,7 +266,7 @@ class TestRefusals:
         with pytest.raises(BuildingError, match="line 1, column 3"):
             decode("äö".encode() + b"\xff", "small.txt")
 
-    def test_a_byte_order_mark_is_no_fault(self) -> None:
+    def test_a_byte_order_mark_is_allowed(self) -> None:
         assert decode(SMALL.encode("utf-8-sig"), "small.txt") == SMALL
 
 

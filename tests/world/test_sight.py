@@ -1,4 +1,4 @@
-"""Sight, against libtcod's restrictive field of view."""
+"""Sight, checked against libtcod's restrictive field of view."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def drawn(*rows: str) -> Plan:
 
 
 def opaque(plan: Plan, cell: Cell, viewer: Cell) -> bool:
-    """The rule of design 4, said once more: what blocks the view from `viewer`."""
+    """The rule of sight, written a second time: what blocks the view from `viewer`."""
     away = abs(cell[0] - viewer[0]) + abs(cell[1] - viewer[1])
     return plan.tile(cell) is Tile.WALL or (plan.tile(cell) is Tile.DOOR and away > 1)
 

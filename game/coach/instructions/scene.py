@@ -11,7 +11,7 @@ from game.coach.acts import Level
 from game.coach.instructions.vocabulary import Tuples
 from game.world.building import Building, Room, VictimSite
 from game.world.floodfill import UNREACHABLE, Floodfill, Floodfills
-from game.world.geometry import Cell, Heading
+from game.world.geometry import Cell, Heading, reach
 from game.world.settings import MissionSettings
 
 
@@ -56,15 +56,9 @@ class Scene:
         return self.floodfills.to(site.cell)
 
     def treated_at(self, pose: Pose) -> VictimSite | None:
-        """Whom triage would treat: own cell, then ahead, then clockwise (the mission's rule)."""
-        waiting = self._waiting_at
-        cell, ahead = pose
-        site = waiting.get(cell)
-        for heading in (ahead, ahead.right, ahead.back, ahead.left):
-            if site is not None:
-                break
-            site = waiting.get(heading.from_cell(cell))
-        return site
+        """The waiting victim that triage would treat: the first in `reach`."""
+        sites = map(self._waiting_at.get, reach(*pose))
+        return next((site for site in sites if site is not None), None)
 
 
 @dataclass(frozen=True)

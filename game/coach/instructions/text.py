@@ -87,4 +87,4 @@ def _with_article(room: str) -> str:
 
 
 def _not_of(level: Level, said: Tuple) -> ValueError:
-    return ValueError(f"{said} is no tuple of level {level.name}")
+    return ValueError(f"{said} is not a tuple of level {level.name}")

@@ -1,5 +1,5 @@
-"""Between levels: an instruction is made at C3 from the goal, and every other level from its
-neighbour (paper 5.1.2). A transformation keeps the goal and the place; it changes the words."""
+"""Between levels: an instruction is made at C3 from the goal, and every lower level from the one
+above it (paper 5.1.2). A transformation keeps the goal and the place; it changes the words."""
 
 from __future__ import annotations
 
@@ -26,13 +26,6 @@ def lower(scene: Scene, instruction: Instruction) -> Instruction:
     if instruction.level is Level.C1:
         raise ValueError("C1 is the lowest level")
     return _compose(scene, instruction.start, instruction.goal, Level(instruction.level - 1))
-
-
-def raise_(scene: Scene, instruction: Instruction) -> Instruction:
-    """The same goal from the same place, one level more abstract. Raises ValueError at C3."""
-    if instruction.level is Level.C3:
-        raise ValueError("C3 is the highest level")
-    return _compose(scene, instruction.start, instruction.goal, Level(instruction.level + 1))
 
 
 def _compose(scene: Scene, pose: Pose, goal: str, level: Level) -> Instruction:

@@ -22,7 +22,7 @@ ACTIONS: dict[Level, frozenset[str]] = {
 THINGS: dict[Level, frozenset[str]] = {
     Level.C1: frozenset({"Steps", "Left", "Right", "Around", "MedicalEquipment"}),
     Level.C2: frozenset(
-        {
+        [
             "Room",
             "Hallway",
             "Intersection",
@@ -32,7 +32,7 @@ THINGS: dict[Level, frozenset[str]] = {
             "Door",
             "BlueVictim",
             "Around",
-        }
+        ]
     ),
     Level.C3: frozenset({"RedVictim", "BlueVictim"}),
 }
@@ -41,18 +41,8 @@ THINGS: dict[Level, frozenset[str]] = {
 VICTIM_AT_C2 = {Severity.RED: "redvictim", Severity.BLUE: "BlueVictim"}
 VICTIM_AT_C3 = {Severity.RED: "RedVictim", Severity.BLUE: "BlueVictim"}
 
-ORDINALS = (
-    "first",
-    "second",
-    "third",
-    "fourth",
-    "fifth",
-    "sixth",
-    "seventh",
-    "eighth",
-    "ninth",
-    "tenth",
-)
+_ORDINALS = "first second third fourth fifth sixth seventh eighth ninth tenth"
+ORDINALS = tuple(_ORDINALS.split())
 MOST_COUNTED = len(ORDINALS)
 """The highest number of doors or intersections that a person is asked to count."""
 

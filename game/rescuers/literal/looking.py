@@ -17,7 +17,7 @@ GLANCE = 5
 def abreast(now: Observation, landmark: Landmark, side: Heading) -> Cell | None:
     """The door cell abreast on one side, or the farthest floor cell of an opening there.
 
-    Looking sideways over floor in view: the first cell that is no floor, if it is a door cell, is
+    Looking sideways over floor in view: the first cell that is not floor, if it is a door cell, is
     a door abreast; floor as far as a glance goes is an opening (an intersection).
     """
     cell = now.position

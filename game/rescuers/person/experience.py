@@ -20,7 +20,7 @@ class Experience:
     searching_ms: int = 0
     """Walking without knowing where to."""
     puzzled_ms: int = 0
-    """Words that could not be carried out, and mending wrong keys."""
+    """Words that could not be carried out, and correcting wrong keys."""
     corrections: int = 0
     switches: int = 0
     rescued: int = 0

@@ -1,4 +1,4 @@
-"""Hands at the keys: a pace of their own, and now and then a wrong key, which is then mended."""
+"""Hands at the keys: a pace of their own, and now and then a wrong key, which is then corrected."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Hands:
         return not self._meant
 
     @property
-    def mending(self) -> bool:
+    def correcting(self) -> bool:
         """Whether a wrong key is being made good."""
         return len(self._meant) > 1
 
@@ -68,7 +68,7 @@ class Hands:
         self._busy_ms = max(self._busy_ms, at_ms)
 
     def see(self, now: Observation, reaction_ms: int) -> None:
-        """Look whether the last key was the right one; mend it where it was not."""
+        """Look whether the last key was the right one; correct it where it was not."""
         if self._slip is None:
             return
         (wrong, right, before), self._slip = self._slip, None

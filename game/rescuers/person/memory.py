@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from functools import lru_cache
 from math import exp
 from random import Random
 
@@ -12,7 +11,6 @@ from game.rescuers.person.randomness import normal
 from game.world.building import Building
 from game.world.floodfill import UNREACHABLE, Floodfills
 from game.world.geometry import Cell
-from game.world.plan import Plan
 
 MINUTE_MS = 60_000
 HUNCH_PULL = 1.5
@@ -52,21 +50,19 @@ class MapMemory:
         self.names = {at: known for at, known in self.names.items() if known != name}
         self.names[site] = name
 
-    def nearest(self, plan: Plan, here: Cell, sites: Collection[Cell]) -> Cell | None:
+    def nearest(self, ways: Floodfills, here: Cell, sites: Collection[Cell]) -> Cell | None:
         """The room of some that is nearest; None where there is none that can be reached."""
-        ways = floodfills_of(plan)
         near = [(ways.distance(here, site), site) for site in sites]
         return min((site for site in near if site[0] != UNREACHABLE), default=(0, None))[1]
 
     def next_guess(
-        self, plan: Plan, name: str, here: Cell, ruled_out: frozenset[Cell]
+        self, ways: Floodfills, name: str, here: Cell, ruled_out: frozenset[Cell]
     ) -> Cell | None:
         """Where to look next for a room whose place is not known: near by, and near the hunch.
         None where every place has been ruled out."""
         open_sites = [site for site in self.sites if site not in ruled_out]
         nameless = [site for site in open_sites if site not in self.names]
         hunch = self.hunches.get(name)
-        ways = floodfills_of(plan)
 
         def effort(site: Cell) -> tuple[float, Cell]:
             walk = ways.distance(here, site)
@@ -98,12 +94,6 @@ def memorised(building: Building, memorise_ms: int, traits: Traits, chance: Rand
 def nothing_memorised(building: Building) -> MapMemory:
     """Knows which shapes are rooms, and no name."""
     return MapMemory(tuple(room.label for room in building.rooms), {}, {})
-
-
-@lru_cache(maxsize=8)
-def floodfills_of(plan: Plan) -> Floodfills:
-    """The ways in a building, as anybody reads them off the mini-map."""
-    return Floodfills(plan)
 
 
 def _neighbour(sites: tuple[Cell, ...], site: Cell) -> Cell:

@@ -33,7 +33,7 @@ class Traits:
     ms_per_word: float = 190
     """Silent reading: 252 ms a word of prose, faster for stock phrases read again and again."""
     reaction_ms: float = 380
-    """From a change on the bar until reading begins, and from seeing an error to mending it."""
+    """From a change on the bar until reading begins, and from seeing an error to correcting it."""
     step_ms: float = 210
     """Between two presses of one key; a held key walks at the mission's pace, which is 200 ms."""
     key_change_ms: float = 300

@@ -88,7 +88,7 @@ class BoundedPerson:
 
     def _live_through(self, now: Observation) -> None:
         """Time went by; names of rooms may have come into view."""
-        puzzled = self._puzzled or self._hands.mending
+        puzzled = self._puzzled or self._hands.correcting
         searching = self._search.under_way
         self.experience.passed(now.time_ms, searching=searching, puzzled=puzzled)
         if now.rescued > self.experience.rescued:
@@ -236,7 +236,7 @@ class BoundedPerson:
         self._latest = now
         walker = BoundedWalker(self._controls, now.heading, self._search, lambda: None)
         unseen = frozenset(self._memory.sites) - self._glimpsed
-        aim = self._memory.nearest(now.plan, now.position, unseen)
+        aim = self._memory.nearest(now.terrain.floodfills, now.position, unseen)
         if aim is not None:
             now = yield from self._watched(walker.head_for(now, aim), now)
         for severity in Severity:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 
 from game.rescuers.literal import looking
 from game.rescuers.literal.execution import Doing, Walker
-from game.rescuers.person.memory import MapMemory, floodfills_of
+from game.rescuers.person.memory import MapMemory
 from game.world.geometry import Cell, Heading
 from game.world.observation import Observation
-from game.world.plan import Plan
 from game.world.settings import Controls
+from game.world.terrain import Terrain
 
 
 class Search:
@@ -52,11 +51,15 @@ class Search:
         if self.target is not None:
             return self.target, False
         excluded = self._ruled_out.setdefault(self.wanted, set())
-        found = self.memory.next_guess(now.plan, self.wanted, now.position, frozenset(excluded))
+        found = self.memory.next_guess(
+            now.terrain.floodfills, self.wanted, now.position, frozenset(excluded)
+        )
         if found is None:
             excluded.clear()
             excluded.add(_nearest(self.memory.sites, now.position))
-            found = self.memory.next_guess(now.plan, self.wanted, now.position, frozenset(excluded))
+            found = self.memory.next_guess(
+                now.terrain.floodfills, self.wanted, now.position, frozenset(excluded)
+            )
         self.target = found or self.memory.sites[0]
         return self.target, True
 
@@ -99,7 +102,7 @@ class BoundedWalker(Walker):
                 if is_new:
                     self._ponder()
             else:
-                enclosed = room_around(now.plan, place)
+                enclosed = _room_around(now.terrain, place)
                 if now.position in enclosed:
                     self._room = enclosed
                     return now
@@ -109,16 +112,14 @@ class BoundedWalker(Walker):
                 search.rule_out(place)
 
 
-@lru_cache(maxsize=256)
-def room_around(plan: Plan, cell: Cell) -> frozenset[Cell]:
+def _room_around(terrain: Terrain, cell: Cell) -> frozenset[Cell]:
     """The floor of the room around a cell."""
-    return looking.floor_around(plan, cell)
+    return terrain.shared(("room", cell), lambda: looking.floor_around(terrain.plan, cell))
 
 
 def _next_cell(now: Observation, target: Cell) -> Cell:
     """The neighbouring cell from which it is shortest to `target`; where one stands on it, any."""
-    plan = now.plan
-    to_go = floodfills_of(plan).to(target)
+    plan, to_go = now.plan, now.terrain.floodfills.to(target)
     return plan.cell(min(plan.neighbours[plan.index(now.position)], key=to_go.__getitem__))
 
 

@@ -17,9 +17,9 @@ from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.signals import lead_out
 from game.screens.widgets.theme import THEMES, theme_name
-from game.study.overview import StatusReader, StudyStatus
-from game.study.roll import SessionStatus
-from game.study.statustext import HEADER, heading, session_cells, totals_line
+from game.study.lab.attendance import SessionStatus
+from game.study.lab.status_text import HEADER, session_cells, study_line, totals_line
+from game.study.lab.study_status import StatusReader, StudyStatus
 
 EVERY_S = 1.0
 
@@ -36,12 +36,12 @@ _STYLES = {
 def status_rows(status: StudyStatus) -> list[Row]:
     """The screen's lines: the study, its totals, a line a session, and what is wrong."""
     rows: list[Row] = [
-        ((f" {heading(status)}", "title"),),
+        ((f" {study_line(status)}", "title"),),
         ((f" {totals_line(status.totals)}", "quiet"),),
         BLANK,
     ]
     if not status.sessions:
-        rows.append(((" Nobody has begun yet.", "quiet"),))
+        rows.append(((" Nobody has started yet.", "quiet"),))
         return rows
     cells = [session_cells(session) for session in status.sessions]
     widths = [max(map(len, column)) for column in zip(HEADER, *cells, strict=True)]
@@ -128,10 +128,10 @@ class StatusApp(App[None], inherit_bindings=False):
 def watch_status(folder: Path) -> int:
     """Follow the study in `folder` on this terminal; the exit status.
 
-    Raises AnaError for what the experimenter can mend.
+    Raises AnaError for what the experimenter can fix.
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise AnaError("this is not a terminal", mend="Leave --watch out to print the status once.")
+        raise AnaError("this is not a terminal", hint="Leave out --watch to print the status once.")
     StatusReader(folder).look()
     app = StatusApp(folder)
     app.run(mouse=False)

@@ -6,6 +6,7 @@ nothing that it does not need.
 
 from __future__ import annotations
 
+import asyncio
 import os
 import sys
 from collections.abc import Callable
@@ -119,6 +120,12 @@ class AnaApp(App[None], inherit_bindings=False):
         if self._opened:
             self._mind_size(event.size)
 
+    async def action_leave_now(self) -> None:
+        """Quit from a window in which no question can be read; what was played is kept."""
+        if self.live is not None:
+            await asyncio.to_thread(self.live.end)
+        self.exit()
+
     def _mind_size(self, size: Size) -> None:
         from game.screens.widgets.dialogs import LEAST_SIZE, TooSmall
 
@@ -210,7 +217,7 @@ class AnaApp(App[None], inherit_bindings=False):
         try:
             screen = make()
         except AnaError as error:
-            self._say_or_fail("The mission cannot begin", error)
+            self._say_or_fail("The mission cannot start", error)
             return
         self.live = screen.live
         self._replace(screen)
@@ -292,7 +299,7 @@ class AnaApp(App[None], inherit_bindings=False):
         try:
             self.show_replay(Replay(read_journal(journal)))
         except AnaError as error:
-            self._say_or_fail("This cannot be replayed", error)
+            self._say_or_fail("This mission cannot be replayed", error)
 
     def _replay_chosen(self, journal: Path | None) -> None:
         if journal is not None:
@@ -311,7 +318,7 @@ class AnaApp(App[None], inherit_bindings=False):
         try:
             replay = Replay(message.transcript, message.number)
         except AnaError as error:
-            self._say_or_fail("This cannot be replayed", error)
+            self._say_or_fail("This mission cannot be replayed", error)
             return
         self.switch_screen(ReplayScreen(replay))
 
@@ -324,7 +331,7 @@ class AnaApp(App[None], inherit_bindings=False):
     # --- the stack of screens -------------------------------------------------------------------
 
     def _step_back(self) -> None:
-        """Home, for who came from there; else out."""
+        """Back to the home screen if it was the start, otherwise quit."""
         if self._been_home:
             self.show_home()
         else:
@@ -357,7 +364,7 @@ def _path(journal: Journal) -> Path:
 
 
 def run_home() -> int:
-    """Open the home screen; the exit status. Raises AnaError for what the user can mend."""
+    """Open the home screen; the exit status. Raises AnaError for what the user can fix."""
     return _run(AnaApp(AnaApp.show_home))
 
 
@@ -384,7 +391,7 @@ def _run(app: AnaApp) -> int:
     if not all(stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)):
         raise AnaError(
             "this is not a terminal",
-            mend="Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
+            hint="Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
         )
     app.run(mouse=False)
     if app.failure is not None:

@@ -79,7 +79,7 @@ def coach_rows(
     the coach asks where the rescuer is walking to."""
     if not infers:
         level, goal = _level(thoughts, building)
-        return [level, goal, (("this coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
+        return [level, goal, (("This coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
     left = [*_level(thoughts, building), *_comprehension(thoughts), *_belief(thoughts)]
     if columns < 48:
         return [*left, BLANK, *_listed(thoughts, building, columns)]
@@ -93,7 +93,7 @@ def _level(thoughts: Thoughts, building: Building) -> list[Row]:
     level: list[Run] = [(f" C{int(thoughts.level)} ", "badge")]
     issued = thoughts.instruction
     if issued is not None and issued.fallback:
-        level.append((f" said as C{int(issued.shown_level)}", "quiet"))
+        level.append((f" shown as C{int(issued.shown_level)}", "quiet"))
     victims = {victim.id: victim for victim in building.victims}
     goal: Row = (("no goal", "quiet"),)
     if thoughts.goal is not None:
@@ -105,7 +105,7 @@ def _comprehension(thoughts: Thoughts) -> list[Row]:
     """P(g*) as a bar with marks at the two thresholds."""
     evaluation = thoughts.evaluation
     if evaluation is None:
-        return [(("P(g*) not evaluated yet", "quiet"),), BLANK]
+        return [(("P(g*) not known yet", "quiet"),), BLANK]
     verdict = "no evidence" if evaluation.verdict == "none" else evaluation.verdict
     return [
         (("P(g*) ", "quiet"), (f"{evaluation.comprehension:.2f}", _zone(evaluation)),
@@ -143,7 +143,7 @@ def _belief(thoughts: Thoughts) -> list[Row]:
         rows.append(((f"{thoughts.ms_per_move / 1000:.2f} s a step", "quiet"),))
     else:
         missteps = _counted(thoughts.missteps, "misstep")
-        rows.append(((f"{missteps}, {thoughts.disobeyed} disobeyed", "quiet"),))
+        rows.append(((f"{missteps}, {thoughts.disobeyed} not followed", "quiet"),))
     return rows
 
 

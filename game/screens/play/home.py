@@ -40,7 +40,7 @@ _SCENE_KINDS = {
 }
 BUILDINGS = ("harbour", "foundry", "practice")
 COACHES = (
-    ("ana", "ana, who adapts to you"),
+    ("ana", "ana, which adapts to you"),
     ("static-1", "step by step (C1)"),
     ("static-2", "by doors and hallways (C2)"),
     ("static-3", "by room names (C3)"),
@@ -148,8 +148,8 @@ class HomeScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         with Vertical(id="home-ground"):
             yield self._page
-        turn = "" if self.app.native_ansi_color else " · T dark or light"
-        hint = f" ↑ ↓ choose · ← → change · Enter begin{turn} · Q quit"
+        turn = "" if self.app.native_ansi_color else " · T theme"
+        hint = f" ↑ ↓ choose · ← → change · Enter start{turn} · Q quit"
         yield Canvas([((hint, ""),)], id="hint")
 
     def on_mount(self) -> None:

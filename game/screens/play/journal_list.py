@@ -14,12 +14,11 @@ from textual.screen import Screen
 
 from game.errors import AnaError
 from game.journal.folders import JOURNAL
-from game.journal.missions import missions
+from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.screens.play.mission_story import coach_name
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
-from game.world.events import Rescued
 
 LISTED = 200
 
@@ -37,11 +36,11 @@ def journal_text(path: Path) -> str:
         transcript = read_journal(path)
     except AnaError:
         return "cannot be read"
-    played = missions(transcript)
+    played = read_history(transcript).missions
     if not played:
         return "no mission"
     first = played[0]
-    rescued = sum(isinstance(happening.record, Rescued) for happening in first.happened)
+    rescued = sum(fate == "rescued" for fate, _ in first.fates.values())
     parts = [first.started.building, coach_name(first.started.coach), f"{rescued} rescued"]
     if first.end == "abandoned":
         parts.append("left early")
@@ -66,7 +65,7 @@ class JournalList(Canvas):
             text = f"  {played:%d %b %Y  %H:%M}  {journal_text(path)}  "
             rows.append(((text, style),))
         if not journals:
-            rows.append((("  There are none yet: play a mission first.", "quiet"),))
+            rows.append((("  There are no missions yet: play one first.", "quiet"),))
         self.draw(rows)
 
 

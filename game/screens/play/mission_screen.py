@@ -168,7 +168,7 @@ class LiveScreen(Screen[None]):
         if self._over:
             return
         self._over = True
-        text = f"{error}\n\nEverything you saw happen before is saved in\n{self.journal}"
+        text = f"{error}\n\nEverything up to this point is saved in\n{self.journal}"
 
         def leave(_: None) -> None:
             self.app.post_message(Failed(error))

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from game.coach.acts import Disobeyed, InstructionIssued, LevelChanged, Misstep
 from game.coach.spec import CoachSpec
-from game.screens.widgets.charts import Step
+from game.screens.widgets.charts import ChartStep
 from game.session.replay import Replay
 from game.world.building import Building, Severity, VictimSite
-from game.world.events import Acted, Expired, Outcome, Rescued
 from game.world.geometry import Cell
 from game.world.observation import VictimState
 from game.world.settings import MissionSettings
@@ -25,7 +23,7 @@ class Fate(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Story:
+class MissionStory:
     """A mission as a whole. `path` are the cells walked, the start first; `levels` are 1 to 3.
 
     `actions` counts what the rescuer did, blocked moves and turns included; `instructions` how
@@ -39,8 +37,8 @@ class Story:
     actions: int
     path: tuple[Cell, ...]
     fates: dict[str, Fate]
-    rescues: tuple[Step, ...]
-    levels: tuple[Step, ...]
+    rescues: tuple[ChartStep, ...]
+    levels: tuple[ChartStep, ...]
     instructions: int
     missteps: int
     disobeyed: int
@@ -68,45 +66,24 @@ def coach_name(spec: CoachSpec) -> str:
     return spec.kind + (f" C{int(spec.level)}" if spec.level is not None else "")
 
 
-def tell(replay: Replay) -> Story:
+def tell(replay: Replay) -> MissionStory:
     """The story of a recorded mission, up to where the replay stands."""
-    building = replay.building
-    fates = {victim.id: Fate(victim, VictimState.WAITING, None) for victim in building.victims}
-    path, rescues, levels = [building.start], [Step(0, 0)], list[Step]()
-    kinds = {Acted: 0, Misstep: 0, Disobeyed: 0}
-    told = list[str]()
-    for record in replay.records:
-        if type(record) in kinds:
-            kinds[type(record)] += 1
-        if isinstance(record, InstructionIssued) and record.text not in told[-1:]:
-            told.append(record.text)
-        match record:
-            case Acted(outcome=Outcome.MOVED):
-                path.append(record.position)
-            case Rescued():
-                fates[record.victim] = Fate(
-                    fates[record.victim].victim, VictimState.RESCUED, record.at_ms
-                )
-                rescues.append(Step(record.at_ms, rescues[-1].value + 1))
-            case Expired():
-                fates[record.victim] = Fate(
-                    fates[record.victim].victim, VictimState.EXPIRED, record.at_ms
-                )
-            case LevelChanged():
-                levels.append(Step(record.at_ms, int(record.after)))
-            case InstructionIssued() if not levels:
-                levels.append(Step(record.at_ms, int(record.level)))
-    return Story(
+    building, past = replay.building, replay.so_far()
+    fates = {site.id: Fate(site, VictimState.WAITING, None) for site in building.victims}
+    for victim, (fate, at_ms) in past.fates.items():
+        fates[victim] = Fate(fates[victim].victim, VictimState(fate), at_ms)
+    rescued = [at_ms for fate, at_ms in past.fates.values() if fate == "rescued"]
+    return MissionStory(
         building=building,
         settings=replay.started.settings,
         until_ms=replay.time_ms,
         left=replay.recorded.end == "abandoned",
-        actions=kinds[Acted],
-        path=tuple(path),
+        actions=past.actions,
+        path=(building.start, *past.path),
         fates=fates,
-        rescues=tuple(rescues),
-        levels=tuple(levels),
-        instructions=len(told),
-        missteps=kinds[Misstep],
-        disobeyed=kinds[Disobeyed],
+        rescues=(ChartStep(0, 0), *(ChartStep(at, n) for n, at in enumerate(rescued, start=1))),
+        levels=tuple(ChartStep(at_ms, int(level)) for at_ms, level, _ in past.level_changes),
+        instructions=past.texts,
+        missteps=past.missteps,
+        disobeyed=len(past.disobeyed),
     )

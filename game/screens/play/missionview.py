@@ -1,4 +1,4 @@
-"""The bar, the office and the panel: what a mission looks like, whoever plays it."""
+"""The bar, the office and the panel: what every mission looks like."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from textual.app import ComposeResult
 from textual.containers import Container
 from textual.widget import Widget
 
-from game.screens.widgets.bar import InstructionBar
+from game.screens.widgets.instruction_bar import InstructionBar
 from game.screens.widgets.minimap import MiniMap, Pins
 from game.screens.widgets.officeview import OfficeView
 from game.screens.widgets.statuspanel import StatusPanel
@@ -54,7 +54,7 @@ class MissionView(Container):
         return self.status.size.width
 
     def divide(self) -> None:
-        """Divide the space anew, as when the extra widget has come or gone."""
+        """Divide the space again, as when the extra widget has come or gone."""
         columns, rows = self.size
         extra = self._extra is not None and self._extra.display
         self.set_class(extra, "extra")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
-from game.screens.play.mission_story import Story
+from game.screens.play.mission_story import MissionStory
 from game.screens.widgets.canvas import Row, Run
 from game.screens.widgets.glyphs import HEADING_ARROWS
 from game.screens.widgets.minimap import (
@@ -55,7 +55,7 @@ def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
     return ("●", "red") if victim.severity is Severity.RED else ("○", "blue")
 
 
-def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
+def path_map(story: MissionStory, *, columns: int, filled: bool) -> list[Row]:
     """The building with the way walked, its beginning and end, and what became of the victims;
     with room names where there is room for half-blocks.
 
@@ -77,16 +77,16 @@ def path_map(story: Story, *, columns: int, filled: bool) -> list[Row]:
     return SmallMap(plan, scale, tints, signs=not filled).rows(everything, pins)
 
 
-def legend_row(story: Story) -> Row:
+def legend_row(story: MissionStory) -> Row:
     """What the signs of the beginning and the end mean."""
     start = HEADING_ARROWS[story.building.start_heading], "here/here"
-    began: Row = (start, (" where you began", "quiet"))
+    began: Row = (start, (" where you started", "quiet"))
     if story.path[-1] == story.building.start:
         return began
-    return (*began, ("   ", ""), END, (" where you ended", "quiet"))
+    return (*began, ("   ", ""), END, (" where you finished", "quiet"))
 
 
-def _names(story: Story) -> dict[Cell, Pin]:
+def _names(story: MissionStory) -> dict[Cell, Pin]:
     """The letters of the rooms' names, each at the upper cell of its character."""
     building = story.building
     taken = {victim.cell for victim in building.victims}
@@ -105,7 +105,7 @@ def _cells(scale: Scale, left: int, top: int) -> Iterator[Cell]:
             yield x, y
 
 
-def _dots(story: Story, scale: Scale) -> dict[Cell, Pin]:
+def _dots(story: MissionStory, scale: Scale) -> dict[Cell, Pin]:
     """Dots along the way, each at the first cell of its character: so few on walls that these can
     still be seen, and none on doors."""
     plan = story.building.plan

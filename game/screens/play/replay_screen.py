@@ -13,7 +13,6 @@ from textual.timer import Timer
 
 from game.coach.acts import LevelChanged
 from game.errors import AnaError
-from game.journal.missions import missions
 from game.journal.reader import Transcript
 from game.screens.play.coachpanel import CoachPanel, posterior_pins
 from game.screens.play.mission_screen import Failed
@@ -66,7 +65,7 @@ def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) ->
     state = "▶ playing" if playing else "■ stopped"
     where = f"  {_at(replay.time_ms)} of {_at(replay.duration_ms)}"
     legend: Row = (
-        ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" too late ", "quiet"),
+        ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" lost ", "quiet"),
         ("◆", "level"), (" new level", "quiet"),
     )  # fmt: skip
     return [
@@ -116,9 +115,11 @@ class ReplayScreen(Screen[None]):
         Binding("up,plus,equals_sign,k", "speed(1)", "Faster", id="replay.faster"),
         Binding("down,minus,j", "speed(-1)", "Slower", id="replay.slower"),
         Binding("n,N,full_stop", "event(1)", "Next event", id="replay.next"),
-        Binding("b,B,comma", "event(-1)", "Event before", id="replay.before"),
+        Binding("b,B,comma", "event(-1)", "Previous event", id="replay.before"),
         Binding("right_square_bracket", "mission(1)", "Next mission", id="replay.mission.next"),
-        Binding("left_square_bracket", "mission(-1)", "Mission before", id="replay.mission.before"),
+        Binding(
+            "left_square_bracket", "mission(-1)", "Previous mission", id="replay.mission.before"
+        ),
         Binding("escape,q,Q,ctrl+q,ctrl+c", "leave", "Leave", id="replay.leave"),
     ]
 
@@ -129,8 +130,7 @@ class ReplayScreen(Screen[None]):
         self._view = MissionView(replay.started.settings, self._panel)
         self._timeline = Timeline()
         self._keys = KeyLine(id="keys")
-        recorded = missions(replay.transcript)
-        self._number, self._count = recorded.index(replay.recorded), len(recorded)
+        self._number, self._count = replay.number, replay.count
         self._playing: Timer | None = None
         self._speed = 0
         self._exact_ms = 0.0

@@ -12,7 +12,7 @@ from textual.containers import VerticalScroll
 from textual.message import Message
 from textual.screen import Screen
 
-from game.screens.play.mission_story import Fate, Story
+from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.pathmap import legend_row, path_map, victim_pin
 from game.screens.widgets.canvas import BLANK, Canvas, Row, beside, width
 from game.screens.widgets.charts import area_chart, step_chart
@@ -39,7 +39,7 @@ _WAITING = VictimState.WAITING
 _NAMES = {1: "C1", 2: "C2", 3: "C3"}
 
 
-def rescue_chart(story: Story, columns: int, rows: int) -> list[Row]:
+def rescue_chart(story: MissionStory, columns: int, rows: int) -> list[Row]:
     """Rescued victims over the mission's time."""
     return area_chart(
         "Rescued",
@@ -52,7 +52,7 @@ def rescue_chart(story: Story, columns: int, rows: int) -> list[Row]:
     )
 
 
-def level_chart(story: Story, columns: int, rows: int) -> list[Row]:
+def level_chart(story: MissionStory, columns: int, rows: int) -> list[Row]:
     """The level of the coach's words over time, as in the paper's Fig. 10."""
     return step_chart(
         "Level of the coach",
@@ -65,7 +65,7 @@ def level_chart(story: Story, columns: int, rows: int) -> list[Row]:
     )
 
 
-def constant_level(story: Story) -> Row | None:
+def constant_level(story: MissionStory) -> Row | None:
     """The level of the coach's words where it never changed, in words."""
     levels = {step.value for step in story.levels}
     if len(levels) > 1:
@@ -74,7 +74,7 @@ def constant_level(story: Story) -> Row | None:
     return ((f"The coach {said}.", "quiet"),)
 
 
-def total_rows(story: Story) -> list[Row]:
+def total_rows(story: MissionStory) -> list[Row]:
     """What it came to, in words."""
     saved = {severity: story.count(severity, VictimState.RESCUED) for severity in Severity}
     lost = story.count(Severity.RED, VictimState.EXPIRED)
@@ -82,7 +82,7 @@ def total_rows(story: Story) -> list[Row]:
     first: Row = (
         (f"{story.rescued} of {total} rescued", "big"),
         (f"   {saved[Severity.RED]} red, {saved[Severity.BLUE]} blue", "quiet"),
-        (f"   {lost} came too late" if lost else "", "quiet"),
+        (f"   {lost} not reached in time" if lost else "", "quiet"),
     )
     if story.settings.show_score:
         first = (*first, (f"   {story.score} points", "big"))
@@ -93,9 +93,9 @@ def total_rows(story: Story) -> list[Row]:
     return [first, ((left, "big"), (where + told, "quiet"))]
 
 
-def fate_rows(story: Story, columns: int) -> list[Row]:
-    """Whom the rescuer reached and when, then who came too late and who still waits, in as many
-    columns as fit."""
+def fate_rows(story: MissionStory, columns: int) -> list[Row]:
+    """Whom the rescuer reached and when, then who was not reached in time and who still waits, in
+    as many columns as fit."""
     order = (VictimState.RESCUED, VictimState.EXPIRED, VictimState.WAITING)
     fates = sorted(
         story.fates.values(),
@@ -113,7 +113,7 @@ def fate_rows(story: Story, columns: int) -> list[Row]:
     return rows
 
 
-def _fate_row(story: Story, fate: Fate, columns: int) -> Row:
+def _fate_row(story: MissionStory, fate: Fate, columns: int) -> Row:
     site, reached = fate.victim, fate.state is VictimState.RESCUED
     room = story.building.room_of(site)
     name = room.name if room is not None else "hallway"
@@ -126,7 +126,7 @@ def _fate_row(story: Story, fate: Fate, columns: int) -> Row:
     )  # fmt: skip
 
 
-def result_rows(story: Story, columns: int, rows: int, *, filled: bool) -> list[Row]:
+def result_rows(story: MissionStory, columns: int, rows: int, *, filled: bool) -> list[Row]:
     """The whole page, `columns` wide; what matters most is within the first `rows`."""
     area = [*path_map(story, columns=columns, filled=filled), legend_row(story)]
     area_columns = max(map(width, area)) + 2
@@ -150,7 +150,7 @@ def result_rows(story: Story, columns: int, rows: int, *, filled: bool) -> list[
     return [*head[1:], *area, *charts, BLANK, *fate_rows(story, columns)]
 
 
-def _beside_the_map(story: Story, wide: int, rows: int, constant: Row | None) -> list[Row]:
+def _beside_the_map(story: MissionStory, wide: int, rows: int, constant: Row | None) -> list[Row]:
     """Both charts, one below the other, over `rows`; where the level is `constant`, the rescues
     one by one in place of its chart."""
     if constant is not None:
@@ -170,7 +170,7 @@ class ResultPage(Canvas):
         *STYLES, *PIN_STYLES, "title", "quiet", "strong", "faint", "line", "area", "big",
     }  # fmt: skip
 
-    def __init__(self, story: Story) -> None:
+    def __init__(self, story: MissionStory) -> None:
         super().__init__()
         self._story = story
 
@@ -197,7 +197,7 @@ class ResultScreen(Screen[None]):
         Binding("escape,q,Q,h,H", "want('home')", "Home", id="result.home"),
     ]
 
-    def __init__(self, story: Story, journal: Path) -> None:
+    def __init__(self, story: MissionStory, journal: Path) -> None:
         super().__init__()
         self._story = story
         self._journal = journal

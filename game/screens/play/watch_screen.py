@@ -20,7 +20,7 @@ from game.world.observation import Observation
 
 SPEEDS = (1, 2, 4, 8)
 SUMMARY_COLUMNS = 110
-"""From here on there is room for who plays beside the keys."""
+"""From this width on, the rescuer's name fits beside the keys."""
 
 
 class WatchScreen(LiveScreen):

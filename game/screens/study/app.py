@@ -24,11 +24,11 @@ from game.screens.widgets.dialogs import Question
 from game.screens.widgets.signals import lead_out
 from game.screens.widgets.terminal import this_terminal
 from game.screens.widgets.theme import THEMES, theme_name
-from game.study.conduct import conduct
 from game.study.folder import Identity, Study
 from game.study.ledger import NoPlace
 from game.study.lock import SessionBusy, SessionLock, take_over
-from game.study.study_session import HasWithdrawn, StudySession, open_session, see_place
+from game.study.protocol.conduct import conduct
+from game.study.protocol.study_session import HasWithdrawn, StudySession, open_session, see_place
 from game.study.texts import Page, filled
 
 STATUS_TROUBLE = 2
@@ -147,12 +147,12 @@ class StudyApp(App[None], inherit_bindings=False):
 def run_session(study: Study, identity: Identity) -> int:
     """Let a participant take part at this terminal; the exit status.
 
-    Raises AnaError for what the experimenter can mend.
+    Raises AnaError for what the experimenter can fix.
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise AnaError(
             "this is not a terminal",
-            mend="Run it in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
+            hint="Run it in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
         )
     app = StudyApp(study, identity)
     app.run(mouse=False)

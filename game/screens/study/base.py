@@ -20,7 +20,7 @@ from game.errors import AnaError
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
 from game.study.study_settings import ScreenSize
-from game.study.texts import Page, Words
+from game.study.texts import Page, ScreenWords
 
 Result = TypeVar("Result")
 
@@ -30,7 +30,7 @@ class Frame:
     """What a study gives all its screens: their size and their small words."""
 
     size: ScreenSize
-    words: Words
+    words: ScreenWords
 
     def stop_question(self) -> Question:
         """Asks whether to stop taking part."""
@@ -38,7 +38,7 @@ class Frame:
         return Question(words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no)
 
 
-class Stage(Vertical):
+class FixedStage(Vertical):
     """Holds a screen's widgets, in the middle of the terminal and never larger than the study
     says: a larger terminal has blank margins."""
 
@@ -48,7 +48,7 @@ class Stage(Vertical):
         self.styles.height = frame.size.rows
 
 
-class Column(VerticalScroll):
+class TextColumn(VerticalScroll):
     """A page in the middle of the stage, with `below` under its text; it scrolls where a lab wrote
     more than fits."""
 
@@ -77,7 +77,7 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
         self._done = False
 
     def compose(self) -> ComposeResult:
-        yield Stage(self.frame, *self._content)
+        yield FixedStage(self.frame, *self._content)
 
     def on_mount(self) -> None:
         self._deaf_until = monotonic() + self.DEAF_S
@@ -96,7 +96,7 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
 
     def show_keys(self, *keys: tuple[str, str]) -> None:
         """Name the keys, and those that scroll where there is more than fits."""
-        scrolls = any(column.max_scroll_y > 0 for column in self.query(Column))
+        scrolls = any(column.max_scroll_y > 0 for column in self.query(TextColumn))
         more = (("PgUp PgDn", self.frame.words.scroll),) if scrolls else ()
         self.query_one(KeyLine).set_keys(*keys, *more)
 

@@ -8,7 +8,7 @@ from typing import ClassVar
 from textual.binding import Binding, BindingType
 from textual.widgets import Static
 
-from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
 from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
@@ -82,7 +82,7 @@ class ChoiceScreen(StudyScreen[int]):
     ) -> None:
         choice = Choice(options)
         asked = [Static(question, classes="question", markup=False)] if question else []
-        super().__init__(frame, [Column(page, *asked, choice), KeyLine(id="keys")])
+        super().__init__(frame, [TextColumn(page, *asked, choice), KeyLine(id="keys")])
         self._choice = choice
         self._save = save
 

@@ -15,7 +15,7 @@ from game.screens.study.timed import TICK_S, TimeLine
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
-from game.study.tasks import Labelling
+from game.study.protocol.tasks import Labelling
 from game.world.building import Room
 
 USED = "✓"

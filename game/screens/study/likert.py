@@ -9,7 +9,7 @@ from textual.binding import Binding, BindingType
 from game.screens.study.base import Frame
 from game.screens.study.sheet import SheetScreen
 from game.screens.widgets.canvas import Row, Run
-from game.study.tasks import Asked, Sheet
+from game.study.protocol.tasks import Asked, Sheet
 from game.study.texts import Page
 
 

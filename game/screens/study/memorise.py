@@ -7,7 +7,7 @@ from textual.containers import Center
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.planmap import PlanMap
 from game.screens.study.timed import TICK_S, TimeLine
-from game.study.tasks import Memorising
+from game.study.protocol.tasks import Memorising
 
 
 class MemoriseScreen(StudyScreen[bool]):

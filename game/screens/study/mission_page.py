@@ -13,11 +13,11 @@ from textual.screen import ModalScreen
 from game.journal.folders import JOURNAL
 from game.screens.play.live import LiveMission, PacedClock
 from game.screens.play.mission_screen import MissionScreen
-from game.screens.study.base import Frame, Stage, body, heading
+from game.screens.study.base import FixedStage, Frame, body, heading
 from game.screens.study.pages import Signs
 from game.screens.study.timed import TICK_S
 from game.screens.widgets.keyline import KeyLine
-from game.study.tasks import Playing
+from game.study.protocol.tasks import Playing
 from game.study.texts import Page
 
 
@@ -81,7 +81,7 @@ class StudyMissionScreen(MissionScreen):
         return self.live.task.goals is None
 
     def compose(self) -> ComposeResult:
-        yield Stage(self.frame, self.view)
+        yield FixedStage(self.frame, self.view)
 
     def on_mount(self) -> None:
         if self._is_mission:

@@ -7,7 +7,7 @@ from typing import ClassVar
 from textual.binding import Binding, BindingType
 from textual.widget import Widget
 
-from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES
 from game.screens.widgets.howto import sign_rows, walking_rows
@@ -24,7 +24,7 @@ class PageScreen(StudyScreen[bool]):
     DEAF_S = 0.3
 
     def __init__(self, frame: Frame, page: Page, *below: Widget) -> None:
-        super().__init__(frame, [Column(page, *below), KeyLine(id="keys")])
+        super().__init__(frame, [TextColumn(page, *below), KeyLine(id="keys")])
 
     def on_mount(self) -> None:
         self.call_after_refresh(self.show_keys, ("Enter", self.frame.words.go_on))

@@ -12,7 +12,7 @@ from textual.screen import ModalScreen
 from textual.widgets import Static
 
 from game.journal.records import Preflighted
-from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas, Run
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.terminal import colours, this_terminal
@@ -43,7 +43,7 @@ class PreflightScreen(StudyScreen[Preflighted]):
 
     def __init__(self, frame: Frame) -> None:
         checks, keys = Checks(), KeyLine(id="keys")
-        super().__init__(frame, [Column(frame.words.preflight, checks), keys])
+        super().__init__(frame, [TextColumn(frame.words.preflight, checks), keys])
         self._pressed: set[str] = set()
         self._checks = checks
         self._keys = keys

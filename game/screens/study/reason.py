@@ -8,7 +8,7 @@ from textual import events
 from textual.binding import Binding, BindingType
 from textual.widgets import TextArea
 
-from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
 
@@ -34,7 +34,7 @@ class ReasonScreen(StudyScreen[str]):
     def __init__(self, frame: Frame, page: Page) -> None:
         area = Words(soft_wrap=True, show_line_numbers=False, tab_behavior="focus")
         keys = KeyLine(("Enter", frame.words.go_on), id="keys")
-        super().__init__(frame, [Column(page, area), keys])
+        super().__init__(frame, [TextColumn(page, area), keys])
         self._area = area
 
     def on_mount(self) -> None:

@@ -20,9 +20,9 @@ from game.screens.study.planmap import PlanMap
 from game.screens.study.preflight import PreflightScreen
 from game.screens.study.reason import ReasonScreen
 from game.screens.study.sliders import SlidersScreen
-from game.study.conduct import Stopped
+from game.study.protocol.conduct import Stopped
+from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize
-from game.study.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page, Texts
 from game.world.building import Building
 from game.world.settings import MissionSettings
@@ -31,7 +31,7 @@ Result = TypeVar("Result")
 
 
 class ScreenParticipant:
-    """A `game.study.conduct.Participant` who sits at the terminal."""
+    """A `game.study.protocol.conduct.Participant` who sits at the terminal."""
 
     def __init__(self, app: App[None], frame: Frame, texts: Texts, rules: MissionSettings) -> None:
         self._app = app

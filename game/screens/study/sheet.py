@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, Protocol
 
-from game.screens.study.base import Column, Frame, StudyScreen
+from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
-from game.study.tasks import Asked, Sheet
+from game.study.protocol.tasks import Asked, Sheet
 from game.study.texts import Page
 
 
@@ -58,7 +58,7 @@ class SheetScreen(StudyScreen[bool]):
         questions = Questions(sheet.asked, question_rows)
         turn = "↑ ↓", frame.words.next
         line = KeyLine(*keys, turn, id="keys")
-        super().__init__(frame, [Column(page, questions, wide=True), line])
+        super().__init__(frame, [TextColumn(page, questions, wide=True), line])
         self._sheet = sheet
         self._active = 0
         self._questions = questions

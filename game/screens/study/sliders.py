@@ -12,7 +12,7 @@ from textual.timer import Timer
 from game.screens.study.base import Frame
 from game.screens.study.sheet import SheetScreen
 from game.screens.widgets.canvas import Row
-from game.study.tasks import Asked, Sheet
+from game.study.protocol.tasks import Asked, Sheet
 from game.study.texts import Page
 
 MIDDLE = 50

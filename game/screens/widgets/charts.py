@@ -13,7 +13,7 @@ _MARK_COLUMNS = 2
 _EIGHTHS = " ▁▂▃▄▅▆▇█"
 
 
-class Step(NamedTuple):
+class ChartStep(NamedTuple):
     """From `at_ms` on the value is `value`."""
 
     at_ms: int
@@ -22,7 +22,7 @@ class Step(NamedTuple):
 
 def step_chart(
     title: str,
-    steps: Sequence[Step],
+    steps: Sequence[ChartStep],
     labels: Sequence[tuple[int, str]],
     end_ms: int,
     full_ms: int,
@@ -56,7 +56,7 @@ def step_chart(
 
 def area_chart(
     title: str,
-    steps: Sequence[Step],
+    steps: Sequence[ChartStep],
     highest: int,
     end_ms: int,
     full_ms: int,
@@ -78,7 +78,9 @@ def area_chart(
     return _framed(title, lines, "area", {0: str(highest), rows - 1: "0"}, margin, full_ms)
 
 
-def _by_column(steps: Sequence[Step], end_ms: int, full_ms: int, wide: int) -> list[int | None]:
+def _by_column(
+    steps: Sequence[ChartStep], end_ms: int, full_ms: int, wide: int
+) -> list[int | None]:
     """The value at each column of the axis, up to the one of `end_ms`."""
     values: list[int | None] = []
     for column in range(min(wide, 1 + (wide - 1) * end_ms // full_ms)):

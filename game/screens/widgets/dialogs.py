@@ -51,7 +51,7 @@ class Notice(ModalScreen[None]):
         Binding("ctrl+q,ctrl+c", "close", id="notice.close.ctrl"),
     ]
 
-    def __init__(self, title: str, text: str, *, key: str = "Go on") -> None:
+    def __init__(self, title: str, text: str, *, key: str = "OK") -> None:
         super().__init__()
         self._title, self._text, self._key = title, text, key
 
@@ -67,12 +67,12 @@ class Notice(ModalScreen[None]):
 
 def leave_question() -> Question:
     """What is asked before a mission is left."""
-    text = "What you have done so far stays in the journal."
-    return Question("Leave the mission?", text, yes="Leave", no="Go on")
+    text = "Your progress so far is saved."
+    return Question("Leave the mission?", text, yes="Leave", no="Stay")
 
 
 class Pause(ModalScreen[bool]):
-    """Stands over a mission while its clock stands still; its answer is whether to leave it."""
+    """Covers a mission while its clock is stopped; the answer says whether to leave it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter,escape,space,p,P", "go_on", id="pause.go_on"),
@@ -87,8 +87,8 @@ class Pause(ModalScreen[bool]):
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog"):
             yield Static("Paused", classes="title", markup=False)
-            yield Static("The clock stands still.", markup=False)
-            yield KeyLine(("P", "Go on"), ("?", "Help"), ("Q", "Leave"))
+            yield Static("The clock is stopped.", markup=False)
+            yield KeyLine(("P", "Resume"), ("?", "Help"), ("Q", "Leave"))
 
     def action_go_on(self) -> None:
         self.dismiss(False)
@@ -130,7 +130,7 @@ class TooSmall(ModalScreen[None]):
     """Covers everything while the terminal is too small, and goes when it is large enough."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("ctrl+q,ctrl+c", "ignore", id="small.ignore"),
+        Binding("ctrl+q,ctrl+c", "app.leave_now", id="small.quit"),
     ]
 
     def __init__(self) -> None:
@@ -146,8 +146,5 @@ class TooSmall(ModalScreen[None]):
         self._text.update(
             f"The window is too small: {size.width} x {size.height}.\n"
             f"ana needs {columns} x {rows}.\n\n"
-            "Enlarge it, or make its letters smaller, and it goes on."
+            "Make it larger or reduce the font size to continue. Ctrl+C quits."
         )
-
-    def action_ignore(self) -> None:
-        """Leaving is asked about in a window that can be read."""

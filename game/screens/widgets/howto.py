@@ -17,15 +17,15 @@ from game.world.geometry import Heading
 
 _MARGIN = "  "
 _LEGEND = (
-    (player_kind(Heading.NORTH), "you; the point shows where you face"),
-    (Kind.RED, "red victim: badly hurt, lost at half time"),
-    (Kind.BLUE, "blue victim: hurt, can wait to the end"),
-    (Kind.TREATED_RED, "being treated: stay until it is done"),
+    (player_kind(Heading.NORTH), "you: an arrowhead pointing the way you face"),
+    (Kind.RED, "red victim: dies unless treated by half time"),
+    (Kind.BLUE, "blue victim: hurt, can wait until the end"),
+    (Kind.TREATED_RED, "being treated: stay until it is finished"),
     (Kind.RESCUED, "rescued"),
-    (Kind.EXPIRED, "came too late"),
+    (Kind.EXPIRED, "lost"),
     (Kind.WALL, "wall"),
-    (Kind.DOOR, "door: you see through it only beside it"),
-    (Kind.FLOOR, "floor you see now"),
+    (Kind.DOOR, "door: stand next to it to see through"),
+    (Kind.FLOOR, "floor in view"),
     (Kind.SEEN_FLOOR, "floor you have seen before"),
 )
 _COMPASS_KEYS = (
@@ -44,8 +44,8 @@ _LEVELS = (
 )
 _TREAT = "Utilize medical equipment."
 _FEW_WORDS = frozenset({Kind.RESCUED, Kind.EXPIRED, Kind.WALL, Kind.FLOOR})
-"""Signs whose meaning is said so shortly that they stand beside the others,"""
-_BESIDE = 49
+"""Signs with so short a meaning that they stand beside the others,"""
+_BESIDE = 52
 """from this column on."""
 
 
@@ -66,7 +66,7 @@ def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
         BLANK,
         _heading("What the coach says"),
         *_levels(),
-        _line("The coach ana chooses among them by how well you find your way."),
+        _line("ana picks the level to suit how well you find your way."),
     ]
 
 

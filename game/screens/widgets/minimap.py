@@ -120,7 +120,7 @@ class SmallMap:
     """The rows of one building at one scale, some cells in `tints`; with `signs` every character
     with a door in it shows nothing but the door.
 
-    A row is put together anew only when it changes, and a character worked out only once for what
+    A row is put together again only when it changes, and a character worked out only once for what
     is explored of it: a step of the rescuer costs some microseconds.
     """
 

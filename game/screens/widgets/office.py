@@ -10,7 +10,7 @@ from typing import NamedTuple
 from game.screens.widgets.camera import Camera
 from game.screens.widgets.canvas import Row, Run
 from game.screens.widgets.glyphs import GlyphSet, Kind, player_kind, treated_kind, victim_kind
-from game.world.geometry import Cell
+from game.world.geometry import Cell, reach
 from game.world.observation import Observation, VictimState
 from game.world.plan import Plan, Tile
 
@@ -189,9 +189,7 @@ def _cut(name: str, columns: int) -> str:
 
 
 def in_reach(observation: Observation) -> Cell | None:
-    """The cell of the waiting victim in view that triage would treat: own, ahead, clockwise."""
+    """The cell of the waiting victim in view that triage would treat: the first in `reach`."""
     waiting = {v.cell for v in observation.victims if v.state is VictimState.WAITING}
-    here, way = observation.position, observation.heading
-    around = (way, way.right, way.back, way.left)
-    reach = (here, *(heading.from_cell(here) for heading in around))
-    return next((cell for cell in reach if cell in waiting), None)
+    cells = reach(observation.position, observation.heading)
+    return next((cell for cell in cells if cell in waiting), None)

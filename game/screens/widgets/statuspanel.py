@@ -24,7 +24,7 @@ def clock_text(left_ms: int) -> str:
 def status_rows(
     observation: Observation, settings: MissionSettings, columns: int, *, timed: bool = True
 ) -> list[Row]:
-    """The panel's lines, `columns` wide; those of the clock are blank where time is no matter."""
+    """The panel's lines, `columns` wide; the clock is blank where time does not matter."""
     return [
         _clock(observation, columns) if timed else BLANK,
         _time_bar(observation, settings, columns) if timed else BLANK,

@@ -6,16 +6,16 @@ import pytest
 from analysis.pages.coach_inside import calibration_rows, evaluations, verdict_rows
 from analysis.pages.traces import illustrative
 from analysis.sources.absent import Refusal
-from analysis.sources.frames import Study
+from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from tests.analysis.stats.test_intervals import published
 
 GROUPS = {"a": "LOW", "b": "HIGH"}
 
 
-def study() -> Study:
+def study() -> StudyData:
     people = pd.DataFrame({"knowledge": GROUPS, "complexity": "C1"})
-    return Study(people, pd.DataFrame({"participant": []}), "made up", simulated=True)
+    return StudyData(people, pd.DataFrame({"participant": []}), "made up", simulated=True)
 
 
 def recorded() -> Recorded:
@@ -90,7 +90,7 @@ def test_the_person_nearest_the_mean_stands_for_a_group() -> None:
         disobeyed_in_round=0,
     )
     people = missions.drop_duplicates("participant").set_index("participant")
-    everybody = Study(people[["knowledge", "complexity"]], missions, "made up", simulated=True)
+    everybody = StudyData(people[["knowledge", "complexity"]], missions, "made up", simulated=True)
     source = Recorded({"rounds": missions.drop(columns="knowledge")}, "made up", simulated=True)
     chosen = illustrative(source, everybody)
     assert list(chosen) == ["LOW", "MED", "HIGH"]

@@ -14,8 +14,7 @@ from statsmodels.miscmodels.ordinal_model import OrderedModel
 from analysis.pages.figures import fig7_mental_states, fig9_adaptivity
 from analysis.pages.published import POSTHOC_FILE, STUDY_FILE, half_unit, printed, recomputed_anova
 from analysis.sources.absent import Absent, Refusal, SourceError
-from analysis.sources.exclusions import load_rules
-from analysis.sources.frames import Paired, Study, paired
+from analysis.sources.frames import Paired, StudyData, paired
 from analysis.stats.anova import THREE_WAY, WITHIN, mixed_anova
 from analysis.stats.cellmodel import CELLS
 from analysis.stats.linear import added_columns, added_slope
@@ -29,12 +28,14 @@ from analysis.stats.power import (
 )
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.sensitivity import continuous_rows
+from game.errors import AnaError
+from game.tables.exclusions import read_rules
 
-ReadTable = Callable[..., Study]
+ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
 
 
-def test_round_and_order_effects_equal_a_regression(study: Study) -> None:
+def test_round_and_order_effects_equal_a_regression(study: StudyData) -> None:
     rows: Any = order_rows(study)["engagement"]
     ours = {row["effect"]: row for row in rows}
     pair = paired(study, "engagement")
@@ -89,7 +90,7 @@ def test_an_effect_inside_the_cells_is_refused() -> None:
     )
 
 
-def test_preferred_instructor(study: Study) -> None:
+def test_preferred_instructor(study: StudyData) -> None:
     rows: Any = preferred_rows(study)
     answers = study.participants["preferred_instructor"]
     chosen = int((answers == "adaptive").sum())
@@ -228,12 +229,12 @@ def test_a_seed_fixes_the_power() -> None:
 def test_a_bad_rule_file_is_refused(tmp_path: Path, text: str, words: str) -> None:
     path = tmp_path / "exclusions.toml"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(SourceError, match=words):
-        load_rules(path)
+    with pytest.raises(AnaError, match=words):
+        read_rules(path)
 
 
 def test_the_shipped_rules_are_the_papers() -> None:
-    rules = load_rules()
+    rules = read_rules()
     assert (rules.main().column, rules.main().more_than) == ("disobeyed", 5)
 
 

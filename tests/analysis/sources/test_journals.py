@@ -12,14 +12,15 @@ from hypothesis import strategies as st
 from analysis.pages.flow import flow_rows
 from analysis.pages.what_if import judged_missions, shares, stretches
 from analysis.sources.absent import SourceError
-from analysis.sources.exclusions import left_by, load_rules
 from analysis.sources.recorded import ANALYSED, Recorded
+from analysis.sources.samples import left_by
 from analysis.sources.source import load_recorded, load_study
 from analysis.sources.study_folder import read_study_folder
 from analysis.sources.tables_folder import read_tables, write_tables
 from analysis.stats.groups import grouped
 from game.errors import AnaError
 from game.journal.failures import JournalError
+from game.tables.exclusions import read_rules
 from game.tables.rejudging import with_prior_mass
 from tests.analysis.simulated import first_of_the_shipped
 
@@ -158,7 +159,7 @@ def test_a_torn_and_unfinished_session_is_told(copy: Path) -> None:
     journal(copy).write_bytes(whole[: int(len(whole) * 0.8)])
     torn = load_recorded(copy, check=False)
     study = torn.study()
-    flow = {row["step"]: row["people"] for row in flow_rows(torn, load_rules())}
+    flow = {row["step"]: row["people"] for row in flow_rows(torn, read_rules())}
     assert flow["were randomised"] == 3
     assert flow["finished both rounds"] == 2
     assert any("unfinished line" in note and "S0001" in note for note in study.notes)
@@ -176,7 +177,7 @@ def test_who_found_no_place_has_not_left(copy: Path) -> None:
     journal(copy, "S0002").write_text("".join(lines[:at]) + turned_away)
     notes = {
         row["step"]: row["note"]
-        for row in flow_rows(load_recorded(copy, check=False), load_rules())
+        for row in flow_rows(load_recorded(copy, check=False), read_rules())
     }
     assert notes["were randomised"] == "0 left before allocation, 1 found no place"
 

@@ -1,4 +1,4 @@
-"""Reading a long CSV: what is taken, and what is refused with place and mend."""
+"""Reading a long CSV: what is taken, and what is refused with place and hint."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -8,10 +8,10 @@ import pandas as pd
 import pytest
 
 from analysis.sources.absent import SourceError
-from analysis.sources.frames import Study, both_rounds, paired
+from analysis.sources.frames import StudyData, both_rounds, paired
 from analysis.sources.longcsv import read_long_csv
 
-ReadTable = Callable[..., Study]
+ReadTable = Callable[..., StudyData]
 
 
 @pytest.fixture

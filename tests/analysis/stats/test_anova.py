@@ -15,10 +15,10 @@ from statsmodels.stats.anova import anova_lm
 
 from analysis.sources.absent import Refusal
 from analysis.sources.factors import OUTCOMES
-from analysis.sources.frames import Paired, Study, paired
+from analysis.sources.frames import Paired, StudyData, paired
 from analysis.stats.anova import BETWEEN, EFFECTS, WITHIN, Effect, mixed_anova
 
-ReadTable = Callable[..., Study]
+ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
 
 
@@ -130,7 +130,7 @@ def long_frame(pair: Paired) -> pd.DataFrame:
 
 
 @pytest.mark.parametrize("outcome", OUTCOMES)
-def test_equals_sum_coded_regression(study: Study, outcome: str) -> None:
+def test_equals_sum_coded_regression(study: StudyData, outcome: str) -> None:
     pair = paired(study, outcome)
     ours = {effect.effect: effect.test for effect in mixed_anova(pair)}
     for variable, names in (("b", BETWEEN), ("d", WITHIN)):

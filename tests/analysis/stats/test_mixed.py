@@ -11,16 +11,16 @@ from scipy import optimize, stats
 
 from analysis.sources.absent import Absent, Refusal
 from analysis.sources.factors import OUTCOMES
-from analysis.sources.frames import Study, paired
+from analysis.sources.frames import StudyData, paired
 from analysis.stats.anova import difference_model, mixed_anova, sum_model
 from analysis.stats.mixed import fit_random_intercept, mixed_model, sum_coded
 
 
-def with_holes(study: Study, outcome: str, share: float = 0.15, seed: int = 2) -> Study:
+def with_holes(study: StudyData, outcome: str, share: float = 0.15, seed: int = 2) -> StudyData:
     rng = np.random.default_rng(seed)
     rounds = study.rounds.copy()
     rounds[outcome] = rounds[outcome].where(rng.random(len(rounds)) > share)
-    return Study(study.participants, rounds, study.label)
+    return StudyData(study.participants, rounds, study.label)
 
 
 def by_name(rows: object, key: str) -> dict[str, dict[str, float]]:
@@ -29,7 +29,7 @@ def by_name(rows: object, key: str) -> dict[str, dict[str, float]]:
 
 
 @pytest.mark.parametrize("outcome", OUTCOMES)
-def test_complete_data_have_a_closed_form(study: Study, outcome: str) -> None:
+def test_complete_data_have_a_closed_form(study: StudyData, outcome: str) -> None:
     pair = paired(study, outcome)
     b, d = sum_model(pair), difference_model(pair)
     between, within = b.sse / b.df, d.sse / d.df
@@ -50,7 +50,7 @@ def _same_factors(name: str, names: dict[str, dict[str, float]]) -> str:
 
 
 @pytest.mark.parametrize("outcome", ["engagement", "preference"])
-def test_partial_rows_equal_statsmodels(study: Study, outcome: str) -> None:
+def test_partial_rows_equal_statsmodels(study: StudyData, outcome: str) -> None:
     holed = with_holes(study, outcome)
     fitted: Any = mixed_model(holed, outcome)
     rows = holed.rounds.join(holed.participants[["knowledge", "complexity"]], on="participant")
@@ -90,7 +90,7 @@ def dense_reml(theta: np.ndarray, y: np.ndarray, x: np.ndarray, person: np.ndarr
     return float(0.5 * (logs + residual @ w @ residual))
 
 
-def test_optimum_and_information_by_brute_force(study: Study) -> None:
+def test_optimum_and_information_by_brute_force(study: StudyData) -> None:
     holed = with_holes(study, "engagement")
     rows = holed.rounds.join(holed.participants[["knowledge", "complexity"]], on="participant")
     rows = rows.dropna(subset=["engagement"])
@@ -142,7 +142,7 @@ def test_no_person_variance_is_singular() -> None:
     assert fit.satterthwaite(np.ones(1)) == 59
 
 
-def test_an_empty_cell_leaves_the_variances(study: Study) -> None:
+def test_an_empty_cell_leaves_the_variances(study: StudyData) -> None:
     people = study.participants
     gone = people.index[(people["knowledge"] == "HIGH") & (people["complexity"] == "C2")]
     fitted = mixed_model(study.without(gone), "confidence")
@@ -150,14 +150,14 @@ def test_an_empty_cell_leaves_the_variances(study: Study) -> None:
     assert isinstance(fitted["var_resid"], float) and fitted["var_resid"] > 0
 
 
-def test_nobody_with_both_rounds_is_refused(study: Study) -> None:
+def test_nobody_with_both_rounds_is_refused(study: StudyData) -> None:
     static = study.rounds[study.rounds["adaptivity"] == "static"]
     rounds = pd.concat([static, static.assign(adaptivity="adaptive", engagement=np.nan)])
     with pytest.raises(Refusal, match="both rounds"):
-        mixed_model(Study(study.participants, rounds, "x"), "engagement")
+        mixed_model(StudyData(study.participants, rounds, "x"), "engagement")
 
 
-def test_p_follows_from_f(study: Study) -> None:
+def test_p_follows_from_f(study: StudyData) -> None:
     for row in by_name(
         mixed_model(with_holes(study, "confusion"), "confusion")["anova"], "effect"
     ).values():

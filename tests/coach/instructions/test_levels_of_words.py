@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from game.coach.acts import Level
-from game.coach.instructions import Pose, Scene, instruct, lower, raise_
+from game.coach.instructions import Pose, Scene, instruct, lower
 from game.world.building import Building, Severity, VictimSite
 from game.world.geometry import Cell, Heading
 from game.world.mission import Mission
@@ -93,21 +93,17 @@ def test_an_instruction_keeps_what_was_asked(where: Pose, goal: str, level: Leve
 
 
 @given(a_pose, a_goal)
-def test_lowering_and_raising_are_the_way_between_levels(where: Pose, goal: str) -> None:
+def test_lowering_is_the_way_between_levels(where: Pose, goal: str) -> None:
     place = scene()
     at = {level: instruct(place, where, goal, level) for level in Level}
     assert lower(place, at[Level.C3]) == at[Level.C2]
     assert lower(place, at[Level.C2]) == at[Level.C1]
-    assert raise_(place, at[Level.C1]) == at[Level.C2]
-    assert raise_(place, at[Level.C2]) == at[Level.C3]
 
 
-def test_there_is_nothing_below_c1_or_above_c3() -> None:
+def test_there_is_nothing_below_c1() -> None:
     place, goal = scene(), goal_at(ARCHIVE_RED)
     with pytest.raises(ValueError, match="lowest"):
         lower(place, instruct(place, START, goal, Level.C1))
-    with pytest.raises(ValueError, match="highest"):
-        raise_(place, instruct(place, START, goal, Level.C3))
 
 
 @given(a_pose, a_goal)

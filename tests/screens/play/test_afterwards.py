@@ -16,7 +16,7 @@ from game.screens.play.mission_story import tell
 from game.screens.play.replay_screen import ReplayScreen, timeline_rows
 from game.screens.play.result import result_rows
 from game.screens.widgets.canvas import plain
-from game.screens.widgets.charts import Step
+from game.screens.widgets.charts import ChartStep
 from game.screens.widgets.minimap import QUARTER_BLOCKS, MiniMap, map_size
 from game.session.playing import begin_mission, end_free_play, start_in_memory
 from game.session.replay import Replay
@@ -61,7 +61,7 @@ def test_both_charts_stand_on_the_first_page_and_use_its_height(
 ) -> None:
     replay = Replay(read_journal(write_two_missions(tmp_path, ward)))
     replay.seek(replay.duration_ms)
-    story = replace(tell(replay), levels=(Step(0, 2), Step(500, 3)))
+    story = replace(tell(replay), levels=(ChartStep(0, 2), ChartStep(500, 3)))
     lines = plain(result_rows(story, columns, rows, filled=True))
     titles = [i for i, line in enumerate(lines) if "Rescued" in line or "Level of the" in line]
     assert len(titles) == 2 and rows - 18 <= len(lines) <= rows
@@ -110,7 +110,7 @@ async def test_beside_a_coach_that_infers_nothing_nothing_is_awaited(
     adaptive = write_two_missions(tmp_path / "ana", ward, parse_coach("ana"))
     async with open_app(lambda app: app.replay(adaptive)) as (_, pilot):
         replay = await until(pilot, ReplayScreen)
-        assert "P(g*) not evaluated yet" in shown(replay) and "Walking to" in shown(replay)
+        assert "P(g*) not known yet" in shown(replay) and "Walking to" in shown(replay)
 
 
 def test_on_the_time_line_a_victim_lost_is_never_hidden(tmp_path: Path, ward: Building) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from game.coach.spec import parse_coach
 from game.journal.reader import read_journal
-from game.screens.play.mission_story import Story, tell
+from game.screens.play.mission_story import MissionStory, tell
 from game.screens.play.pathmap import legend_row, path_map
 from game.screens.widgets.canvas import Row, plain
 from game.screens.widgets.minimap import DOOR_SIGN, HALF_BLOCKS, QUARTER_BLOCKS, SmallMap
@@ -26,7 +26,7 @@ WALK = [Action.NORTH] * 12 + [Action.WEST] * 12 + [Action.NORTH] * 14 + [Action.
 
 
 @pytest.fixture
-def story(tmp_path: Path) -> Story:
+def story(tmp_path: Path) -> MissionStory:
     """A walk out of the lobby, along hallways and their walls."""
     path = tmp_path / "journal.jsonl"
     run, journal = start_in_memory(
@@ -47,7 +47,7 @@ def characters(rows: list[Row]) -> list[list[tuple[str, str]]]:
 
 @pytest.mark.parametrize("columns", [NARROW, WIDE])
 @pytest.mark.parametrize("filled", [True, False])
-def test_the_way_hides_no_wall_and_no_door(story: Story, columns: int, filled: bool) -> None:
+def test_the_way_hides_no_wall_and_no_door(story: MissionStory, columns: int, filled: bool) -> None:
     plan = HARBOUR.plan
     scale = HALF_BLOCKS if columns == WIDE else QUARTER_BLOCKS
     bare = SmallMap(plan, scale, signs=not filled).rows((1 << len(plan.tiles)) - 1, {})
@@ -73,7 +73,7 @@ def test_the_way_hides_no_wall_and_no_door(story: Story, columns: int, filled: b
 @pytest.mark.parametrize("columns", [NARROW, WIDE])
 @pytest.mark.parametrize("filled", [True, False])
 def test_the_way_is_drawn_from_its_beginning_to_its_end(
-    story: Story, columns: int, filled: bool
+    story: MissionStory, columns: int, filled: bool
 ) -> None:
     scale = HALF_BLOCKS if columns == WIDE else QUARTER_BLOCKS
     drawn = characters(path_map(story, columns=columns, filled=filled))
@@ -86,11 +86,11 @@ def test_the_way_is_drawn_from_its_beginning_to_its_end(
     walked = [cell for cell in story.path if HARBOUR.plan.tile(cell) is Tile.FLOOR]
     trail = [cell for cell in walked if "trail" in at(cell)[1]]
     assert len(trail) > len(walked) * (0.8 if filled else 0.3)
-    assert "where you ended" in plain([legend_row(story)])[0]
+    assert "where you finished" in plain([legend_row(story)])[0]
 
 
 @pytest.mark.parametrize("filled", [True, False])
-def test_names_stand_whole_over_the_way(story: Story, filled: bool) -> None:
+def test_names_stand_whole_over_the_way(story: MissionStory, filled: bool) -> None:
     text = "\n".join(plain(path_map(story, columns=WIDE, filled=filled)))
     for room in HARBOUR.rooms:
         assert all(word in text for word in room.name.split())

@@ -131,7 +131,7 @@ async def test_the_help_fits_the_smallest_screen(open_app: Open, controls: str) 
         for canvas in app.screen.query(Canvas):
             assert max(map(width, canvas.rows)) <= canvas.size.width
             assert canvas.size.height >= len(canvas.rows)
-        assert "came too late" in shown(app.screen) and "Utilize medical" in shown(app.screen)
+        assert "rescued" in shown(app.screen) and "Utilize medical" in shown(app.screen)
 
 
 @pytest.mark.parametrize("key", ["q", "ctrl+q", "ctrl+c", "escape"])
@@ -188,6 +188,18 @@ async def test_a_small_window_pauses_and_goes_on_when_enlarged(open_app: Open) -
         await pilot.resize_terminal(100, 30)
         assert await until(pilot, MissionScreen) is mission and not mission.live.paused
         assert mission.view.office.rows and mission.view.office.size.width > 50
+
+
+async def test_a_small_window_can_be_left_and_what_was_played_is_kept(open_app: Open) -> None:
+    async with open_app() as (app, pilot):
+        mission = await until(pilot, MissionScreen)
+        await pilot.resize_terminal(60, 20)
+        await until(pilot, TooSmall)
+        await press(pilot, "ctrl+c")
+        await pilot.pause(0.2)
+        assert app._exit
+    last = read_journal(mission.journal).entries[-1].record
+    assert last == SessionEnded("quit")
 
 
 async def test_a_window_too_small_from_the_start(open_app: Open) -> None:

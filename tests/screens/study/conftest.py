@@ -1,4 +1,4 @@
-"""A study in which one scripted participant has finished, to be gone through again on screens."""
+"""A study in which one scripted participant has finished, to replay on screens."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.study.people import finished_study
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """Not to be changed."""
+    """Do not change it."""
     return finished_study(tmp_path_factory.mktemp("screens") / "finished")
 
 

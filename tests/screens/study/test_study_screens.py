@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
+from game.journal.history import Step
 from game.journal.records import (
     Exposed,
     FreeText,
@@ -41,7 +42,6 @@ from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.dialogs import Question
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
-from game.study.protocol import Step
 from tests.screens.pilots import painted, until
 from tests.study.people import P01, journal_of, rewind, small_study
 
@@ -50,7 +50,7 @@ SIZE = (120, 40)
 
 @pytest.fixture(autouse=True)
 def _hearing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Screens listen at once."""
+    """Screens accept keys at once."""
     for screen in _kinds_of(StudyScreen):
         monkeypatch.setattr(screen, "DEAF_S", 0.0)
 
@@ -71,7 +71,7 @@ async def at(study: Study, step: Step | None = None) -> AsyncIterator[Pilot[None
 
 
 async def let_go(study: Study) -> None:
-    """Wait until the session's lock is free, as it is at once when a process ends."""
+    """Wait until the session's lock is free, as it is as soon as its process ends."""
     for _ in range(250):
         with suppress(SessionBusy):
             SessionLock(study.home(P01)).release()

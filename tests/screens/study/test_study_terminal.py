@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
+from game.journal.history import Step
 from game.journal.reader import Entry
 from game.journal.records import (
     Exposed,
@@ -27,7 +28,6 @@ from game.journal.records import (
     SessionEnded,
 )
 from game.study.folder import Study
-from game.study.protocol import Step
 from tests.study.people import journal_of, rewind
 
 FROM_THE_KEYBOARD = b"\x03n\x04\x1a\x1c\x10\x11n"
@@ -78,7 +78,7 @@ class Terminal:
             self.read_for(0.05)
 
     def enter_until(self, ready: Callable[[], bool]) -> None:
-        """Press Enter, again and again, until `ready`: a page is deaf for a moment."""
+        """Press Enter repeatedly until `ready`: a new page ignores keys for a moment."""
 
         def pressed() -> bool:
             self.press(b"\r")

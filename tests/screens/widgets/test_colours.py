@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from game.screens.widgets.bar import FLASH_S
+from game.screens.widgets.instruction_bar import FLASH_S
 from game.screens.widgets.terminal import colours, ground, this_terminal
 from game.screens.widgets.theme import theme_name
 from tests.terminal import Terminal

@@ -11,9 +11,9 @@ from textual.app import App, ComposeResult
 
 from game.coach.acts import PosteriorEvaluated
 from game.screens.play.coachpanel import gauge
-from game.screens.widgets.bar import FLASH_S, LINES, InstructionBar, announces, bar_rows
 from game.screens.widgets.canvas import Row, difference, padded, plain, sliced, width, wrapped
-from game.screens.widgets.charts import Step, area_chart, step_chart
+from game.screens.widgets.charts import ChartStep, area_chart, step_chart
+from game.screens.widgets.instruction_bar import FLASH_S, LINES, InstructionBar, announces, bar_rows
 from game.screens.widgets.minimap import HALF_BLOCKS, QUARTER_BLOCKS, Scale, SmallMap
 from game.screens.widgets.statuspanel import clock_text, next_change_ms, status_rows
 from game.world import load_building
@@ -279,10 +279,10 @@ def test_treatment_progress_grows(ward: Building) -> None:
 
 
 def test_charts_reach_their_last_value() -> None:
-    steps = [Step(0, 0), Step(60_000, 3), Step(120_000, 6)]
+    steps = [ChartStep(0, 0), ChartStep(60_000, 3), ChartStep(120_000, 6)]
     area = plain(area_chart("R", steps, 6, 240_000, 240_000, columns=60, rows=4))
     assert area[1].endswith("█") and "█" not in area[1][:28] and "4:00" in area[-1]
-    levels = [Step(0, 2), Step(80_000, 1), Step(160_000, 3)]
+    levels = [ChartStep(0, 2), ChartStep(80_000, 1), ChartStep(160_000, 3)]
     labels = [(1, "C1"), (2, "C2"), (3, "C3")]
     lines = plain(step_chart("L", levels, labels, 240_000, 240_000, columns=60, rows=3))
     assert [line[:2] for line in lines[1:4]] == ["C3", "C2", "C1"]
@@ -291,14 +291,16 @@ def test_charts_reach_their_last_value() -> None:
 
 @given(st.integers(12, 120), st.integers(1, 12))
 def test_times_under_a_chart_stand_apart(columns: int, minutes: int) -> None:
-    lines = plain(area_chart("R", [Step(0, 0)], 4, 0, minutes * 60_000, columns=columns, rows=3))
+    lines = plain(
+        area_chart("R", [ChartStep(0, 0)], 4, 0, minutes * 60_000, columns=columns, rows=3)
+    )
     times = lines[-1].split()
     assert times[0] == "0:00" and all(len(time.split(":")[1]) == 2 for time in times)
     assert times == sorted(set(times), key=lambda time: int(time.split(":")[0]))
 
 
 def test_charts_one_below_the_other_are_in_line() -> None:
-    steps, labels = [Step(0, 2)], [(1, "C1"), (2, "C2"), (3, "C3")]
+    steps, labels = [ChartStep(0, 2)], [(1, "C1"), (2, "C2"), (3, "C3")]
     area = plain(area_chart("R", steps, 6, 9, 240_000, columns=60, rows=4))
     levels = plain(step_chart("L", steps, labels, 9, 240_000, columns=60, rows=3))
     assert area[-2].index("└") == levels[-2].index("└") and area[-1] == levels[-1]

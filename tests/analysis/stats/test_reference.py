@@ -1,4 +1,8 @@
-"""Every number of the reference data set, to the tolerances that come with it."""
+"""Every number that R gives for the data sets of tests/reference, to a tolerance for each kind.
+
+Closed forms agree to 1e-8; what R integrates or searches for (Tukey, Shapiro-Wilk, Bayes factor,
+REML) to what that gives.
+"""
 
 import json
 import math
@@ -9,8 +13,7 @@ import pytest
 
 from analysis.battery import BatteryResult, analyse_source
 
-ORACLE = Path(__file__).resolve().parents[2].parent / "shared" / "oracle"
-pytestmark = pytest.mark.skipif(not ORACLE.is_dir(), reason="no shared reference numbers here")
+REFERENCE = Path(__file__).resolve().parents[2] / "reference"
 
 OUTCOMES = ("victims", "engagement", "confidence", "frustration", "confusion", "preference")
 PARTS = (
@@ -34,6 +37,8 @@ PARTS = (
 
 def tolerance(path: str) -> tuple[float, float]:
     """The relative and the absolute tolerance of the number at this path."""
+    if path.startswith("alpha") and path.endswith(("lower", "upper")):
+        return 0.0, 1e-3  # pingouin rounds to three digits
     if "p_tukey" in path or "shapiro" in path:
         return 0.0, 1e-6
     if "bf10" in path:
@@ -69,14 +74,22 @@ def differences(ours: Any, theirs: Any, path: str) -> list[str]:
     return [f"{path}: {ours} for {theirs}"]
 
 
-@pytest.fixture(scope="module")
-def expected() -> Any:
-    return json.loads((ORACLE / "a_unbalanced.json").read_text(encoding="utf-8"))
+DATASETS = ("unbalanced", "partial", "ties", "small")
+
+
+@pytest.fixture(scope="module", params=DATASETS)
+def dataset(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
 
 
 @pytest.fixture(scope="module")
-def result() -> BatteryResult:
-    return analyse_source(ORACLE / "a_unbalanced.csv", ORACLE / "a_unbalanced_quiz.csv")
+def expected(dataset: str) -> Any:
+    return json.loads((REFERENCE / f"{dataset}.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def result(dataset: str) -> BatteryResult:
+    return analyse_source(REFERENCE / f"{dataset}.csv", REFERENCE / f"{dataset}_quiz.csv")
 
 
 @pytest.fixture(scope="module")
@@ -133,5 +146,6 @@ def test_welch_pairs_are_not_the_pooled_ones(ours: Any, expected: Any, outcome: 
     }
     for wrong in expected["outcomes"][outcome]["wrong"]["welch_pairs_static"]:
         right = pooled[wrong["knowledge"], wrong["contrast"]]
-        assert differences(right["t.ratio"], wrong["t"], ".posthoc")
-        assert differences(right["p_none"], wrong["p"], ".posthoc")
+        if right["t.ratio"] != 0:
+            assert differences(right["t.ratio"], wrong["t"], ".posthoc")
+            assert differences(right["p_none"], wrong["p"], ".posthoc")

@@ -1,7 +1,7 @@
 """Practice: short guided legs in the practice building, two at each level, without adaptation.
 
-Each leg leads to one victim from where the leg before ended, so no leg can be missed; the kinds
-of instruction come in an order of chance, each explained before its legs (design 7).
+Each leg leads to one victim from where the previous leg ended, so no leg can be missed. The kinds
+of instruction come in random order, each explained before its legs.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from game.world.writing import with_own_text
 LEGS_PER_LEVEL = 2
 LEGS = LEGS_PER_LEVEL * len(Level)
 LEG_MS = 600_000
-"""Long enough never to press anyone."""
+"""Long enough that nobody is under time pressure."""
 
 
 @dataclass(frozen=True)
-class Leg:
-    """One victim to be found. `opens_kind` tells that its level is new."""
+class PracticeLeg:
+    """One victim to find. `opens_kind` means that this leg is the first of its level."""
 
     number: int
     level: Level
@@ -38,12 +38,12 @@ class Leg:
         return CoachSpec("static", level=self.level)
 
 
-def legs(building: Building, seed: int) -> tuple[Leg, ...]:
-    """The legs of a participant's practice; victims come round again where there are too few."""
+def practice_legs(building: Building, seed: int) -> tuple[PracticeLeg, ...]:
+    """The legs of a participant's practice; victims are used again if there are too few."""
     levels = shuffled(Level, lambda level: level.name, seed, "practice levels")
     victims = shuffled(building.victims, lambda victim: victim.id, seed, "practice victims")
     return tuple(
-        Leg(
+        PracticeLeg(
             number,
             levels[number // LEGS_PER_LEVEL],
             victims[number % len(victims)],
@@ -53,17 +53,17 @@ def legs(building: Building, seed: int) -> tuple[Leg, ...]:
     )
 
 
-def leg_building(building: Building, leg: Leg, start: Cell, heading: Heading) -> Building:
-    """The practice building with the leg's victim alone, entered at `start`."""
+def leg_building(building: Building, leg: PracticeLeg, start: Cell, heading: Heading) -> Building:
+    """The practice building with only the leg's victim, entered at `start`."""
     victim = replace(leg.victim, id="v01")
     return with_own_text(replace(building, victims=(victim,), start=start, start_heading=heading))
 
 
 def leg_start(
-    building: Building, before: Sequence[Leg], stand: tuple[Cell, Heading] | None
+    building: Building, before: Sequence[PracticeLeg], stand: tuple[Cell, Heading] | None
 ) -> tuple[Cell, Heading]:
-    """Where a leg begins: where the rescuer stands, if that is known and is floor, else at the
-    victim treated last, else at the building's entrance."""
+    """Where a leg begins: where the rescuer stands, if that is known and is floor; else at the
+    last treated victim; else at the building's entrance."""
     if stand is not None and building.plan.tile(stand[0]) is Tile.FLOOR:
         return stand
     if before:
@@ -72,5 +72,5 @@ def leg_start(
 
 
 def leg_settings(mission: MissionSettings) -> MissionSettings:
-    """The study's rules without their haste."""
+    """The study's rules without time pressure."""
     return replace(mission, duration_ms=LEG_MS, red_expiry_ms=LEG_MS)

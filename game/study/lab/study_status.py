@@ -1,7 +1,7 @@
-"""The state of a study: sessions, totals and problems, and what may be told only unblinded.
+"""The state of a study: sessions, totals and problems, and counts that unblind it.
 
-While a study recruits, nothing here tells how anybody was allocated (design 7): counts by design
-cell and reasons for exclusion are made by `breakdown` alone, which leaves its trace in the ledger.
+While a study recruits, only `breakdown` reveals anything about the allocation: it gives counts by
+design cell and reasons for exclusion, and the ledger records that it was called (docs/lab.md).
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ import msgspec
 from game.journal.folders import transcripts
 from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS
+from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
-    SessionEnded,
+    SessionOutcome,
     SlotTaken,
     StudyCreated,
     Unblinded,
     ending_of,
     is_closed,
 )
-from game.study.roll import Roll, SessionStatus
 from game.study.study_settings import StudySettings, read_settings
-from game.tables.rows import ParticipantRow
-from game.tables.session_tables import combined, session_tables
+from game.tables.exclusions import ExclusionRule
+from game.tables.session_tables import combined, tables_of
 
 
 class Totals(msgspec.Struct, frozen=True, kw_only=True):
-    """Counts over the live sessions. `places` are all slots of the study, `taken` those given
-    out; `turned_away` found none left, `dropped` came to be marked so in the ledger."""
+    """Counts of live sessions. `places` are all slots of the study, `taken` those given out;
+    `turned_away` found no place left, `dropped` are marked so in the ledger."""
 
     places: int
     taken: int
@@ -59,18 +59,9 @@ class StudyStatus(msgspec.Struct, frozen=True, kw_only=True):
     problems: tuple[str, ...]
 
 
-class ExclusionRule(msgspec.Struct, frozen=True):
-    """Leaves out who has more than `more_than` in `column` of the participants table."""
-
-    name: str
-    words: str
-    column: str
-    more_than: int
-
-
 class CellCount(msgspec.Struct, frozen=True, kw_only=True):
-    """One design cell: how many were allocated to it and finished, and by each exclusion rule how
-    many of those allocated are left out."""
+    """One design cell: how many were allocated to it, how many of them finished, and how many each
+    exclusion rule excludes."""
 
     cell: str
     allocated: int
@@ -79,17 +70,17 @@ class CellCount(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class StatusReader:
-    """Looks at a study again and again, each time at what is new. Reads only."""
+    """Looks at a study repeatedly, reading only what is new. Writes nothing."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self._roll = Roll(folder)
+        self._attendance = Attendance(folder)
 
     def look(self) -> StudyStatus:
-        """The study now. Raises SettingsError or LedgerError for a folder that is no study."""
+        """The study now. Raises SettingsError or LedgerError if the folder is not a study."""
         settings, _ = read_settings(self.folder / SETTINGS)
         entries = Ledger(self.folder / LEDGER).entries()
-        sessions = tuple(self._roll.look(settings))
+        sessions = tuple(self._attendance.look(settings))
         return StudyStatus(
             study=settings.name,
             closed=is_closed(entries),
@@ -107,19 +98,18 @@ class StatusReader:
 def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[CellCount, ...]:
     """Counts of live participants by design cell, with reasons for exclusion.
 
-    Unless the study is closed, the ledger records that they were looked at, and `why`, before
-    anything is told. Raises LedgerError or JournalError.
+    Unless the study is closed, the ledger first records that it was unblinded, and `why`. Raises
+    LedgerError or JournalError.
     """
     ledger = Ledger(folder / LEDGER)
     entries = ledger.entries()
-    if not is_closed(entries):
-        ledger.unblind(why)
+    ledger.unblind(why)
     taken = {
         entry.participant: entry
         for entry in entries
         if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    people = combined(map(session_tables, transcripts(folder, "live"))).participants
+    people = combined(tables_of(transcripts(folder, "live"))).participants
     counts = []
     for code in sorted({entry.cell.code for entry in taken.values()}):
         here = [
@@ -132,15 +122,13 @@ def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[C
                 cell=code,
                 allocated=sum(entry.cell.code == code for entry in taken.values()),
                 finished=sum(row.session_ending == "finished" for row in here),
-                excluded={rule.name: sum(_breaks(row, rule) for row in here) for rule in rules},
+                excluded={
+                    rule.name: sum(rule.excludes(getattr(row, rule.column)) for row in here)
+                    for rule in rules
+                },
             )
         )
     return tuple(counts)
-
-
-def _breaks(row: ParticipantRow, rule: ExclusionRule) -> bool:
-    count = getattr(row, rule.column)
-    return count is not None and bool(count > rule.more_than)
 
 
 def _totals(
@@ -150,7 +138,7 @@ def _totals(
     people = {
         entry.participant
         for entry in entries
-        if isinstance(entry, SessionEnded) and entry.mode == "live"
+        if isinstance(entry, SessionOutcome) and entry.mode == "live"
     }
     ended = Counter(ending_of(entries, person, "live") for person in people)
     created = [entry.blocks for entry in entries if isinstance(entry, StudyCreated)]

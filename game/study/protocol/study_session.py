@@ -1,7 +1,7 @@
-"""One participant's session: its journal, begun or continued, and how far it has come.
+"""One participant's session: its journal, new or continued, and how far it has got.
 
-Nothing reaches the disk before consent: until then the journal is kept in memory, and of one who
-declines only that is written.
+Nothing is written to disk before consent: until then the journal is kept in memory. If someone
+declines, only that is written.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from game.journal.clock import Clock, SystemClock
 from game.journal.folders import JOURNAL
+from game.journal.history import Step, history_of
 from game.journal.reader import Entry, read_file, read_journal
 from game.journal.records import (
     PERSON,
@@ -30,23 +31,21 @@ from game.journal.records import (
 )
 from game.journal.sink import FileSink, Sink
 from game.journal.writer import Journal, versions
-from game.study.answers import Answers
 from game.study.chance import digest, number
 from game.study.folder import Identity, Study, StudyError, amendment
 from game.study.ledger import ending_of
-from game.study.protocol import Progress, Step, progress
 
 CODE_LETTERS = "ABCDEFGHJKMNPQRTUVWXYZ2346789"
-"""Letters and digits that are not taken for one another."""
+"""Letters and digits that are not easily confused."""
 CODE_LENGTH = 8
 
 
 class HasWithdrawn(StudyError):
-    """The participant has withdrawn; participants read `Texts.withdrawn`."""
+    """The participant has withdrawn; they read `Texts.withdrawn`."""
 
 
 class StudySession:
-    """A session under way. Whatever writes raises JournalError when the journal cannot be kept."""
+    """A session in progress. Methods that write raise JournalError if the journal fails."""
 
     def __init__(
         self,
@@ -58,33 +57,30 @@ class StudySession:
         keep: Callable[[], Sink],
         before: Sequence[Entry] = (),
     ) -> None:
-        """`started` opened the journal; `before` are the records of earlier segments. A journal
-        that begins in memory is written to what `keep` makes from consent on."""
+        """`started` opened the journal; `before` holds the records of earlier segments. A journal
+        that begins in memory is written to the sink that `keep` makes, from consent on."""
         self.study = study
         self.identity = identity
         self.journal = journal
         self.clock = clock
         self._started = started
-        self.progress: Progress = progress((entry.envelope, entry.record) for entry in before)
-        self.answers = Answers()
-        for entry in before:
-            self.answers.note(Step(entry.envelope.phase, entry.envelope.round), entry.record)
+        self.history = history_of((entry.envelope, entry.record) for entry in before)
         self._make_sink = keep
         self._kept = bool(before)
 
     @property
     def seed(self) -> int:
-        """What all chance in this session comes from; see `chance`."""
+        """The seed of everything random in this session; see `chance`."""
         return session_seed(self.study, self.identity)
 
     @property
     def step(self) -> Step:
-        """Where records belong now."""
+        """The step that new records belong to."""
         return Step(self.journal.phase, self.journal.round)
 
     @property
     def completion_code(self) -> str:
-        """What the participant gives as proof of having taken part."""
+        """The participant's proof of having taken part."""
         drawn = digest(self.seed, self.identity.participant, "completion")
         return "".join(CODE_LETTERS[byte % len(CODE_LETTERS)] for byte in drawn[:CODE_LENGTH])
 
@@ -97,13 +93,12 @@ class StudySession:
         self.journal.enter(step.phase, step.round)
 
     def record(self, *records: Record) -> None:
-        """Write records that belong together; the operating system has them on return."""
+        """Write records that belong together; on return the operating system has them."""
         self.journal.extend(records)
         step = self.step
         envelope = Envelope(0, 0, 0, "", step.phase, step.round)
         for record in records:
-            self.progress = self.progress.after(envelope, record)
-            self.answers.note(step, record)
+            self.history.note(envelope, record)
 
     async def save(self, *records: Record) -> None:
         """Write records and wait until the disk has them."""
@@ -111,14 +106,14 @@ class StudySession:
         await self.journal.wait_durable()
 
     async def keep(self) -> None:
-        """From here on the journal is kept: what it holds is written, and all that follows."""
+        """Write the journal to disk from here on, with everything it holds so far."""
         if not self._kept:
             self.journal.keep(self._make_sink())
             self._kept = True
         await self.journal.wait_durable()
 
     async def decline(self, version: str) -> None:
-        """Keep nothing but that the participant declined."""
+        """Record that the participant declined, and nothing else."""
         if not self._kept:
             journal = Journal(self._make_sink(), self.clock)
             journal.append(replace(self._started, terminal=None, versions=versions(None)))
@@ -128,7 +123,7 @@ class StudySession:
         await self.finish("declined")
 
     async def allocate(self) -> None:
-        """Take a slot, or the one taken before. Raises NoPlace when none is left."""
+        """Take a slot, or the one already held. Raises NoPlace if none is left."""
         study, (mode, participant) = self.study, self.identity
 
         def take() -> Allocated:
@@ -149,16 +144,16 @@ class StudySession:
         await self.save(await asyncio.to_thread(take))
 
     async def see_place(self) -> None:
-        """See that the participant has a place, or can have one. Raises NoPlace."""
+        """Check that the participant has a place or can get one. Raises NoPlace."""
         await asyncio.to_thread(see_place, self.study, self.identity)
 
     async def turn_away(self) -> None:
-        """There is no place for the participant; of one who has not agreed nothing is kept."""
+        """There is no place for the participant. Without consent, nothing is recorded."""
         if self._kept:
             await self.finish("turned_away")
 
     async def finish(self, ending: Literal["finished", "declined", "turned_away"]) -> None:
-        """The session is over: say so in the journal and in the ledger."""
+        """End the session, in the journal and in the ledger."""
         self.enter(Step("session"))
         await self.save(SessionEnded(ending))
         await asyncio.to_thread(
@@ -166,7 +161,7 @@ class StudySession:
         )
 
     def stop(self) -> None:
-        """The participant leaves, and may come back."""
+        """The participant stops, and may come back."""
         self.record(SessionEnded("quit"))
 
 
@@ -180,13 +175,12 @@ def open_session(
     rescuer: str = PERSON,
     sink: Callable[[Path], Sink] = FileSink.begin,
 ) -> StudySession:
-    """Begin a session, or continue one that broke off.
+    """Begin a session, or continue an earlier one; a session that is over stays unchanged.
 
-    Of one that is over nothing more is written. The caller holds the session's lock; `silent_ms`
-    tells that it was taken from a process that had written nothing for so long. A simulated
-    session gives its `clock` and `MemorySink`.
-    Raises JournalError for a journal that cannot be written or read, LedgerError for a study that
-    was changed, NoPlace for a drop-out whose place somebody else has, HasWithdrawn.
+    The caller holds the session's lock; `silent_ms` is given if it was taken over from a process
+    that had been silent for so long. A simulated session gives its `clock` and `MemorySink`.
+    Raises JournalError if the journal cannot be written or read, LedgerError if the study was
+    changed, NoPlace for a drop-out whose place was given to someone else, and HasWithdrawn.
     """
     clock = clock or SystemClock()
     path = study.home(identity) / JOURNAL
@@ -201,7 +195,7 @@ def open_session(
         return StudySession(study, identity, journal, clock, started, keep)
     transcript = read_journal(path)
     started, before = transcript.started, transcript.entries
-    if progress((entry.envelope, entry.record) for entry in before).over:
+    if history_of((entry.envelope, entry.record) for entry in before).over:
         journal = Journal.buffered(None, started, clock)
         return StudySession(study, identity, journal, clock, started, keep, before)
     journal = Journal.resume(path, terminal, clock)
@@ -214,13 +208,13 @@ def open_session(
 
 
 def see_place(study: Study, identity: Identity) -> None:
-    """See that a participant has a place, or can have one. Raises NoPlace; writes nothing."""
+    """Check that a participant has a place or can get one. Raises NoPlace; writes nothing."""
     mode, participant = identity
     study.ledger.see_place(participant, mode, refill=study.settings.refill_dropouts)
 
 
 def _admit(study: Study, identity: Identity) -> None:
-    """See that the ledger lets this participant take part, and let a drop-out come back."""
+    """Check that the ledger lets this participant take part, and let a drop-out come back."""
     participant, mode = identity.participant, identity.mode
     study.ledger.agree(study.copy.sha256)
     ending = ending_of(study.ledger.entries(), participant, mode)
@@ -230,7 +224,7 @@ def _admit(study: Study, identity: Identity) -> None:
         raise HasWithdrawn(
             f"{participant} has withdrawn from the study",
             place=str(study.folder),
-            mend="Take part under another ID",
+            hint="Use another ID",
         )
 
 
@@ -257,7 +251,7 @@ def session_seed(study: Study, identity: Identity) -> int:
 
 
 def _study_hash(before: Sequence[Entry]) -> str:
-    """The hash of the settings that the session ran under last."""
+    """The hash of the settings that the session last ran with."""
     copies = [
         entry.record.study
         for entry in before

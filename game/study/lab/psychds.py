@@ -22,11 +22,11 @@ from game.tables.rows import Row
 
 IGNORED = "data/raw/\n"
 IGNORE_FILES = (".psychds-ignore", ".psychdsignore")
-"""Validators of different age read the one or the other."""
+"""Older and newer validators read one or the other."""
 
 
 class DatasetNotes(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """What only the lab knows of its dataset, in its own words; all of it may be left out."""
+    """What only the lab can say about its dataset; every field is optional."""
 
     description: str = ""
     authors: tuple[str, ...] = ()
@@ -45,7 +45,7 @@ def file_name(study: str, mode: str, table: str) -> str:
 
 
 def alphanumeric(words: str) -> str:
-    """Words as one value of a file name: plain letters and digits, `study` if none are left."""
+    """Words as one value in a file name: plain letters and digits, or `study` if none are left."""
     plain = unicodedata.normalize("NFKD", words).encode("ascii", "ignore").decode()
     parts = re.findall(r"[A-Za-z0-9]+", plain)
     return "".join(part[0].upper() + part[1:] for part in parts) or "study"
@@ -65,13 +65,13 @@ def all_columns(tables: Iterable[type[Row]]) -> dict[str, Column]:
     return found
 
 
-def description(name: str, told: str, notes: DatasetNotes, tables: Iterable[type[Row]]) -> bytes:
-    """dataset_description.json; `told` is what the dataset says of itself."""
+def description(name: str, summary: str, notes: DatasetNotes, tables: Iterable[type[Row]]) -> bytes:
+    """dataset_description.json; `summary` describes the dataset in a sentence or two."""
     content: dict[str, Any] = {
         "@context": "http://schema.org/",
         "@type": "Dataset",
         "name": name,
-        "description": f"{notes.description} {told}".strip(),
+        "description": f"{notes.description} {summary}".strip(),
         "keywords": list(notes.keywords),
         "variableMeasured": [_variable(column) for column in all_columns(tables).values()],
     }
@@ -84,7 +84,7 @@ def description(name: str, told: str, notes: DatasetNotes, tables: Iterable[type
 
 
 def codebook_table(tables: Mapping[str, type[Row]]) -> str:
-    """The codebook as CSV: a row a table and column."""
+    """The codebook as CSV: one row per table and column."""
     header = ["table", "column", "meaning", "unit", "values", "may_be_empty"]
     return _csv(
         header,
@@ -97,11 +97,11 @@ def codebook_table(tables: Mapping[str, type[Row]]) -> str:
 
 
 def codebook_page(tables: Mapping[str, type[Row]]) -> str:
-    """The codebook to be read, in Markdown."""
+    """The codebook as Markdown."""
     parts = [
-        "# Codebook\n\nAn empty cell means that there is nothing to tell: not asked, not answered, "
-        "not reached. Line breaks within a text are written as spaces. Times of a mission count "
-        "from its start.\n\n"
+        "# Codebook\n\nAn empty cell means that there is no value: not asked, not answered or not "
+        "reached. Line breaks within a text are written as spaces. Mission times count from the "
+        "start of the mission.\n\n"
     ]
     for name, row in tables.items():
         parts.append(f"## {name}\n\n{_paragraphs(getdoc(row) or '')}\n\n")

@@ -1,31 +1,21 @@
-"""The state of a study in words, for a page of text and for a screen alike."""
+"""The state of a study in words, for printing and for the screen."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from game.study.overview import CellCount, StudyStatus, Totals
-from game.study.roll import SessionStatus
+from game.study.lab.attendance import SessionStatus
+from game.study.lab.study_status import CellCount, StudyStatus, Totals
 
-HEADER = ("participant", "mode", "state", "phase", "clock", "last event", "broke in", "resumed")
+HEADER = ("participant", "mode", "state", "phase", "clock", "last event", "interrupted", "resumed")
 
+_COUNTS = Totals.__struct_fields__[2:]
 _RARE = ("turned_away",)
-"""Counts that are told only where there is something to count."""
-_TOTALS = (
-    ("started", "started"),
-    ("taking_part", "taking part"),
-    ("left", "left"),
-    ("cut_off", "cut off"),
-    ("finished", "finished"),
-    ("declined", "declined"),
-    ("turned_away", "turned away"),
-    ("withdrawn", "withdrawn"),
-    ("dropped", "dropped out"),
-)
+"""Counts that are shown only if they are not 0."""
 
 
-def heading(status: StudyStatus) -> str:
-    """The study, and whether it is open."""
+def study_line(status: StudyStatus) -> str:
+    """The study, whether it is open, and how many places are taken."""
     totals = status.totals
     state = "closed" if status.closed else "open"
     unblinded = f", unblinded {_times(status.unblinded)}" if status.unblinded else ""
@@ -34,10 +24,9 @@ def heading(status: StudyStatus) -> str:
 
 def totals_line(totals: Totals) -> str:
     """The counts of live sessions, on one line."""
-    counts = ((name, words, getattr(totals, name)) for name, words in _TOTALS)
-    return ", ".join(
-        f"{words} {count}" for name, words, count in counts if count or name not in _RARE
-    )
+    counts = ((name, getattr(totals, name)) for name in _COUNTS)
+    shown = (f"{name} {count}" for name, count in counts if count or name not in _RARE)
+    return ", ".join(shown).replace("_", " ").replace("dropped", "dropped out")
 
 
 def session_cells(session: SessionStatus) -> tuple[str, ...]:
@@ -57,14 +46,14 @@ def session_cells(session: SessionStatus) -> tuple[str, ...]:
 
 def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
     """The lines of a plain report."""
-    yield heading(status)
+    yield study_line(status)
     yield f"Live sessions: {totals_line(status.totals)}"
     if status.sessions:
         yield ""
         yield from _aligned([HEADER, *(session_cells(one) for one in status.sessions)])
     if status.problems:
         yield ""
-        yield "Look at:"
+        yield "Problems:"
         yield from (f"  {problem}" for problem in status.problems)
     if cells:
         rules = list(cells[0].excluded)
@@ -86,7 +75,7 @@ def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
 
 
 def age(seconds: float | None) -> str:
-    """How long ago something was, in the largest unit that says enough."""
+    """How long ago something happened, in the largest unit that is precise enough."""
     if seconds is None:
         return "-"
     for unit, length in (("d", 86_400), ("h", 3_600), ("min", 60)):

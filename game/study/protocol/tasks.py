@@ -1,6 +1,6 @@
-"""What a participant is given to do, and how each thing done gets into the journal.
+"""The tasks of a participant, and how what they do gets into the journal.
 
-A screen and a simulated person hold the same tasks: all recording is here.
+Screens and simulated people work on the same task objects, which do all the recording.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from game.journal.records import Exposed, QuestionnaireAnswer, QuizAnswer
 from game.session.playing import begin_mission, leave_mission
 from game.session.run import MissionRun
 from game.study.chance import number, shuffled
-from game.study.study_session import StudySession
+from game.study.protocol.study_session import StudySession
 from game.world.building import Building, Room
 from game.world.settings import MissionSettings
 
@@ -21,7 +21,7 @@ EXPOSED_EVERY_MS = 1000
 
 
 class Exposure:
-    """How long a timed phase has been on the screen, over all segments."""
+    """How long a timed phase has been on the screen, in all segments together."""
 
     def __init__(self, session: StudySession, limit_ms: int, before_ms: int = 0) -> None:
         self.limit_ms = limit_ms
@@ -36,7 +36,7 @@ class Exposure:
 
     @property
     def seen_ms(self) -> int:
-        """How long it has been seen, at most the limit."""
+        """How long it has been on the screen, at most the limit."""
         since = 0 if self._zero_ms is None else self._session.now_ms() - self._zero_ms
         return min(self.limit_ms, self._before_ms + since)
 
@@ -49,7 +49,7 @@ class Exposure:
         return self.left_ms == 0
 
     def tick(self) -> None:
-        """Record the exposure if a second has gone by; call a few times a second."""
+        """Record the exposure if a second has passed; call this a few times a second."""
         seen_ms = self.seen_ms
         if seen_ms - self._told_ms >= EXPOSED_EVERY_MS:
             self._told_ms = seen_ms - seen_ms % EXPOSED_EVERY_MS
@@ -58,14 +58,14 @@ class Exposure:
 
 @dataclass(frozen=True)
 class Memorising:
-    """A map to look at until `exposure` is over; it shows no victims."""
+    """A map to look at until `exposure` is over. It shows no victims."""
 
     building: Building
     exposure: Exposure
 
 
 class Labelling:
-    """Rooms to be given their names. A name is given to one room at most."""
+    """Rooms to be named. Each name belongs to one room at most."""
 
     def __init__(self, session: StudySession, building: Building, exposure: Exposure) -> None:
         seed, round_ = session.seed, session.step.round
@@ -74,7 +74,7 @@ class Labelling:
         self.rooms: tuple[Room, ...] = shuffled(
             building.rooms, lambda room: room.name, seed, "rooms", round_
         )
-        """In the order they are shown."""
+        """In the order shown."""
         self.names = tuple(
             room.name
             for room in shuffled(building.rooms, lambda room: room.name, seed, "names", round_)
@@ -84,12 +84,12 @@ class Labelling:
 
     @property
     def given(self) -> Mapping[str, str]:
-        """The names given so far, by the rooms' true names."""
-        return self._session.answers.labels.get(self._session.step, {})
+        """The names given so far, by the true names of the rooms."""
+        return self._session.history.names_given(self._session.step.round)
 
     @property
     def right(self) -> int:
-        """How many rooms have their own name."""
+        """How many rooms have their true name."""
         return sum(room == name for room, name in self.given.items())
 
     def show(self, room: Room) -> None:
@@ -97,7 +97,7 @@ class Labelling:
         self._shown_ms[room.name] = self._session.now_ms()
 
     async def give(self, room: Room, name: str | None) -> None:
-        """Give `name` to the room (None: take its name back), and take it from any other."""
+        """Give `name` to the room (None: clear its name), and take it from any other room."""
         now_ms = self._session.now_ms()
         response_ms = now_ms - self._shown_ms.get(room.name, now_ms)
         answers = [
@@ -111,7 +111,7 @@ class Labelling:
 
 @dataclass(frozen=True)
 class Asked:
-    """One question of a questionnaire as it is shown; values run from `low` to `high`."""
+    """One questionnaire item as shown; values run from `low` to `high`."""
 
     item: str
     text: str
@@ -134,7 +134,7 @@ class Sheet:
 
     def value(self, asked: Asked) -> int | None:
         """The answer given so far."""
-        answer = self._session.answers.items.get((self._session.step, asked.item))
+        answer = self._session.history.items.get((self._session.step, asked.item))
         return None if answer is None else answer.value
 
     @property
@@ -146,10 +146,10 @@ class Sheet:
         return tuple(asked for asked in self.asked if self.value(asked) is None)
 
     async def answer(self, asked: Asked, value: int) -> None:
-        """Record an answer; the same one again is not recorded. Raises ValueError out of range."""
+        """Record an answer unless it is unchanged. Raises ValueError if it is out of range."""
         if not asked.low <= value <= asked.high:
             raise ValueError(f"{asked.item} is answered from {asked.low} to {asked.high}")
-        before = self._session.answers.items.get((self._session.step, asked.item))
+        before = self._session.history.items.get((self._session.step, asked.item))
         if before is not None and before.value == value:
             return
         await self._session.save(
@@ -166,8 +166,8 @@ class Sheet:
 
 
 class Playing:
-    """A mission to be played. `goals` is how many rescues end it early (None: it runs its time),
-    as a leg of practice does."""
+    """A mission to play. It ends early after `goals` rescues, as a practice leg does (None: it
+    runs its full time)."""
 
     def __init__(
         self,
@@ -199,20 +199,20 @@ class Playing:
 
     @property
     def done(self) -> bool:
-        """Whether nothing more is to be done in it."""
+        """Whether there is nothing left to do."""
         run = self.run
         if run is None:
             return False
         return run.ended or (self.goals is not None and run.mission.rescued >= self.goals)
 
     def leave(self, now_ms: int) -> None:
-        """Leave the mission at its time `now_ms`, if it has neither ended nor been left."""
+        """Leave the mission at mission time `now_ms`, unless it has ended or been left already."""
         if self.run is not None and not self.run.ended and not self._left:
             self._left = True
             leave_mission(self.run, self.journal, now_ms, "leg_done" if self.done else "quit")
 
     def tick(self, now_ms: int) -> None:
-        """Record how long the mission has been on the screen if a second has gone by."""
+        """Record how long the mission has been on the screen if a second has passed."""
         if now_ms - self._told_ms >= EXPOSED_EVERY_MS:
             self._told_ms = now_ms - now_ms % EXPOSED_EVERY_MS
             self._session.record(Exposed(now_ms))

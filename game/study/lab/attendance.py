@@ -1,6 +1,6 @@
-"""The roll of a study: who is where, read from the folder while sessions write to it.
+"""Where every participant is, read from the study's folder while sessions write to it.
 
-Nothing here writes or waits. Of a journal only what was added since the last look is read.
+Nothing here writes or waits. Only what was added to a journal since the last look is read.
 """
 
 from __future__ import annotations
@@ -14,7 +14,9 @@ from typing import Literal, get_args
 import msgspec
 
 from game.journal.folders import JOURNAL, SESSIONS
+from game.journal.history import History
 from game.journal.records import (
+    STUDY_MODES,
     Allocated,
     Declined,
     Envelope,
@@ -27,17 +29,16 @@ from game.journal.records import (
     SessionEnded,
     Withdrawn,
 )
-from game.study.folder import MODES, Identity
+from game.study.folder import Identity
 from game.study.lock import is_held
-from game.study.protocol import Progress, Step
 from game.study.study_settings import StudySettings
 
-State = Literal["taking part", "left", "cut off", "finished", "declined", "turned away"]
-"""`left` went on purpose and may come back, `cut off` did not: its process is gone. `turned away`
-found no place, because the study was closed or full."""
+SessionState = Literal["taking part", "left", "cut off", "finished", "declined", "turned away"]
+"""`left` stopped on purpose and may come back; `cut off` lost its process. `turned away` found no
+place, because the study was closed or full."""
 
 SILENCE_S = 10.0
-"""A timed phase writes every second; one silent for longer hangs."""
+"""A timed phase writes every second; one that is silent for longer hangs."""
 
 _Telling = (
     PhaseStarted
@@ -63,7 +64,7 @@ _TAGS = frozenset(kind.__struct_config__.tag for kind in get_args(_Telling))
 
 
 class SessionStatus(msgspec.Struct, frozen=True, kw_only=True):
-    """Where one session is. Nothing in it tells how the participant was allocated.
+    """Where one session is. Nothing in it reveals how the participant was allocated.
 
     `clock_s` is how long a timed phase has been on the screen and `limit_s` its whole length;
     both are None in untimed phases and while memorising, whose length is allocated.
@@ -72,7 +73,7 @@ class SessionStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     participant: str
     mode: str
-    state: State
+    state: SessionState
     phase: Phase
     round: int
     clock_s: float | None
@@ -89,13 +90,7 @@ class SessionWatch:
 
     identity: Identity
     home: Path
-    progress: Progress = field(default_factory=Progress)
-    step: Step = field(default_factory=lambda: Step("session"))
-    interruptions: int = 0
-    resumed: int = 0
-    ended: SessionEnded | None = None
-    limit_ms: int | None = None
-    last_utc: str = ""
+    history: History = field(default_factory=History)
     offset: int = 0
     torn: int = 0
     trouble: str = ""
@@ -119,7 +114,7 @@ class SessionWatch:
             try:
                 envelope = _line.decode(line)
                 record = _telling.decode(line) if envelope.type in _TAGS else None
-                self._note(envelope, record)
+                self.history.note(envelope, record)
             except (msgspec.DecodeError, UnicodeDecodeError):
                 self.torn += 1
 
@@ -133,71 +128,58 @@ class SessionWatch:
     def status(self, settings: StudySettings, now: datetime) -> SessionStatus:
         """Where the session is at the moment `now`."""
         state = self._state()
-        told = self._timed and self.step.phase != "memorise"
+        told = self._timed and self.history.step.phase != "memorise"
         silent_s = self._silent_s(now)
         return SessionStatus(
             participant=self.identity.participant,
             mode=self.identity.mode,
             state=state,
-            phase=self.step.phase if self.last_utc else "consent",
-            round=self.step.round,
-            clock_s=self.progress.exposure_ms / 1000 if told else None,
-            limit_s=_limit_s(self.step.phase, settings) if told else None,
+            phase=self.history.step.phase if self.history.ended_utc else "consent",
+            round=self.history.step.round,
+            clock_s=self.history.exposure_ms / 1000 if told else None,
+            limit_s=_limit_s(self.history.step.phase, settings) if told else None,
             silent_s=silent_s,
-            interruptions=self.interruptions,
-            resumed=self.resumed,
+            interruptions=self.history.interruptions,
+            resumed=self.history.resumed,
             problems=tuple(self._problems(state, silent_s)),
         )
-
-    def _note(self, envelope: Envelope, record: _Telling | None) -> None:
-        if record is not None:
-            self.progress = self.progress.after(envelope, record)
-        self.last_utc = envelope.utc
-        if envelope.phase != "session":
-            self.step = Step(envelope.phase, envelope.round)
-        self.ended = record if isinstance(record, SessionEnded) else None
-        match record:
-            case PhaseStarted(left_ms=left_ms):
-                self.limit_ms = left_ms
-            case Interruption():
-                self.interruptions += 1
-            case Resumed():
-                self.resumed += 1
-            case _:
-                pass
 
     @property
     def _timed(self) -> bool:
         """Whether a timed phase is under way."""
-        return self.progress.begun is not None and self.limit_ms is not None
+        return self.history.begun is not None and self.history.limit_ms is not None
 
-    def _state(self) -> State:
-        if self.progress.declined:
+    def _state(self) -> SessionState:
+        if self.history.declined:
             return "declined"
-        if self.progress.over:
+        if self.history.over:
             return "finished"
         if is_held(self.home):
             return "taking part"
-        if self.ended is None:
+        if self.history.left is None:
             return "cut off"
-        return "turned away" if self.ended.reason == "turned_away" else "left"
+        return "turned away" if self.history.left.reason == "turned_away" else "left"
 
     def _silent_s(self, now: datetime) -> float | None:
-        if not self.last_utc:
+        if not self.history.ended_utc:
             return None
-        return max(0.0, (now - datetime.fromisoformat(self.last_utc)).total_seconds())
+        return max(0.0, (now - datetime.fromisoformat(self.history.ended_utc)).total_seconds())
 
-    def _problems(self, state: State, silent_s: float | None) -> list[str]:
+    def _problems(self, state: SessionState, silent_s: float | None) -> list[str]:
         found = [self.trouble] if self.trouble else []
-        if self.torn > self.resumed:
+        if self.torn > self.history.resumed:
             found.append(f"{self.torn} lines of the journal cannot be read")
         if self._tail and state != "taking part":
-            found.append(f"the journal ends in {len(self._tail)} torn bytes; they do not count")
+            found.append(
+                f"the journal ends in an unfinished line ({len(self._tail)} bytes, ignored)"
+            )
         if state == "cut off":
-            found.append("its process is gone; the participant may log in again")
+            found.append("the program ended unexpectedly; the participant can log in again")
         silent = silent_s is not None and silent_s > SILENCE_S
         if state == "taking part" and self._timed and silent:
-            found.append(f"silent for {silent_s:.0f} s in a timed phase: a frozen link?")
+            found.append(
+                f"no activity for {silent_s:.0f} s in a timed phase; the connection may be frozen"
+            )
         return found
 
 
@@ -211,17 +193,17 @@ def _limit_s(phase: Phase, settings: StudySettings) -> float | None:
             return None
 
 
-class Roll:
-    """All sessions of a study, followed."""
+class Attendance:
+    """All sessions of a study, followed over time."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._watched: dict[Identity, SessionWatch] = {}
 
     def look(self, settings: StudySettings, now: datetime | None = None) -> list[SessionStatus]:
-        """Where everybody is now, in the order of mode and participant.
+        """Where everyone is now, by mode and participant.
 
-        Who left before consent is not there: nothing was recorded.
+        People who left before consent are missing: nothing was recorded about them.
         """
         moment = now or datetime.now(UTC)
         watched = (self._watch(identity, home) for identity, home in self._homes())
@@ -232,7 +214,7 @@ class Roll:
         return [one for one in statuses if one.silent_s is not None or one.state == "taking part"]
 
     def _homes(self) -> Iterator[tuple[Identity, Path]]:
-        for mode in MODES:
+        for mode in STUDY_MODES:
             for home in sorted((self.folder / SESSIONS / mode).glob("*/")):
                 yield Identity(mode, home.name), home
 

@@ -1,8 +1,8 @@
 """A study as a Psych-DS dataset: tidy tables, codebook, instruments and raw journals.
 
-The same study gives the same bytes: no times of export, everything in order. Sessions of different
-modes never share a file. What participants wrote in their own words stands in a file of its own,
-and is taken out of the raw journals.
+The same study gives the same bytes: no export time, everything in order. Sessions of different
+modes never share a file. What participants wrote in their own words goes into a file of its own
+and is removed from the raw journals.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ import msgspec
 from game import __version__
 from game.journal.folders import JOURNAL, transcripts
 from game.journal.reader import Transcript, read_file
+from game.journal.records import StudyMode
 from game.journal.sink import make_folders
 from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, StudyError
-from game.study.ledger import Ledger, Mode, ending_of, is_closed
-from game.study.psychds import (
+from game.study.lab.psychds import (
     IGNORE_FILES,
     IGNORED,
     DatasetNotes,
@@ -32,12 +32,13 @@ from game.study.psychds import (
     file_name,
     table_text,
 )
+from game.study.ledger import Ledger, ending_of
 from game.study.study_settings import read_settings
 from game.tables.rows import Row
-from game.tables.session_tables import ROW_TYPES, Tables, combined, session_tables
+from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
 
 DATASET = "dataset.toml"
-"""Where a lab may put its `DatasetNotes`, in the study folder."""
+"""The optional file of `DatasetNotes` in the study folder."""
 
 DESCRIPTION = "dataset_description.json"
 APART = "identifying"
@@ -46,25 +47,25 @@ FREE_TEXT = "freetext"
 
 @dataclass(frozen=True)
 class Exported:
-    """What was written: how many sessions and rounds of each mode; `unblinded` tells that the
-    study is open and the ledger now says that its allocation was looked at."""
+    """What was written: the number of sessions and rounds of each mode. `unblinded` means that the
+    study is open and the ledger now records that its allocation was looked at."""
 
-    sessions: dict[Mode, int]
-    rounds: dict[Mode, int]
+    sessions: dict[StudyMode, int]
+    rounds: dict[StudyMode, int]
     unblinded: bool
 
 
-def export_study(folder: Path, out: Path, modes: Sequence[Mode] = ("live",)) -> Exported:
+def export_study(folder: Path, out: Path, modes: Sequence[StudyMode] = ("live",)) -> Exported:
     """Write the dataset of the study in `folder` to `out`, replacing an earlier export there.
 
-    Live data of a study that is not closed unblind whoever reads them: the ledger records it.
-    Raises StudyError where `out` is something else, JournalError for a journal that cannot be
-    read; nothing is changed then.
+    Exporting the live data of an open study unblinds it, which the ledger records. Raises
+    StudyError if `out` is something else, and JournalError for a journal that cannot be read; in
+    both cases nothing is changed.
     """
     ledger = Ledger(folder / LEDGER)
     settings, _ = read_settings(folder / SETTINGS)
     entries = ledger.entries()
-    found: dict[Mode, Tables] = {}
+    found: dict[StudyMode, Tables] = {}
     files: dict[str, bytes] = {}
     for mode in dict.fromkeys(modes):
         sessions = [
@@ -72,32 +73,30 @@ def export_study(folder: Path, out: Path, modes: Sequence[Mode] = ("live",)) -> 
             for transcript in transcripts(folder, mode)
             if ending_of(entries, transcript.started.participant, mode) != "withdrawn"
         ]
-        found[mode] = combined(map(session_tables, sessions))
+        found[mode] = combined(tables_of(sessions))
         for transcript in sessions:
             raw = f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"
             files[raw] = without_free_text(_lines_read(transcript))
     files |= _described(folder, settings.name, found)
     _check_target(folder, out, files)
-    unblinds = "live" in found and not is_closed(entries)
-    if unblinds:
-        ledger.unblind("ana study export")
+    unblinded = "live" in found and ledger.unblind("ana study export")
     _replace(out, files)
     return Exported(
         sessions={mode: len(tables.participants) for mode, tables in found.items()},
         rounds={mode: len(tables.rounds) for mode, tables in found.items()},
-        unblinded=unblinds,
+        unblinded=unblinded,
     )
 
 
 def _lines_read(transcript: Transcript) -> bytes:
-    """The lines of the journal that the transcript was made from; it may have grown since."""
+    """The lines of the journal that the transcript was read from; it may have grown since."""
     lines = read_file(Path(transcript.source)).splitlines(keepends=True)
     return b"".join(lines[: transcript.entries[-1].line])
 
 
 def without_free_text(journal: bytes) -> bytes:
-    """The journal with empty answers where a participant wrote in own words; a torn line that
-    may hold such an answer is left out."""
+    """The journal with every free-text answer emptied; an unfinished line that may hold such an
+    answer is left out."""
     return b"".join(_without_answer(line) for line in journal.splitlines(keepends=True))
 
 
@@ -113,8 +112,8 @@ def _without_answer(line: bytes) -> bytes:
     return msgspec.json.encode(fields | {"answer": ""}) + b"\n"
 
 
-def _described(folder: Path, name: str, found: dict[Mode, Tables]) -> dict[str, bytes]:
-    """All files but the raw journals, by their paths."""
+def _described(folder: Path, name: str, found: dict[StudyMode, Tables]) -> dict[str, bytes]:
+    """All files except the raw journals, by path."""
     texts = {
         f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
             table_text(row, tables.table(table))
@@ -128,38 +127,38 @@ def _described(folder: Path, name: str, found: dict[Mode, Tables]) -> dict[str, 
     texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
     files = {path: text.encode() for path, text in texts.items()}
     rows: Sequence[type[Row]] = tuple(ROW_TYPES.values())
-    files[DESCRIPTION] = description(name, _told(found), _notes(folder), rows)
+    files[DESCRIPTION] = description(name, _summary(found), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, ITEMS):
         files[f"materials/{material}"] = (folder / material).read_bytes()
     return files
 
 
-def _told(found: dict[Mode, Tables]) -> str:
+def _summary(found: dict[StudyMode, Tables]) -> str:
     counts = ", ".join(f"{len(tables.participants)} {mode}" for mode, tables in found.items())
-    warning = " The simulated sessions were played by programs." if "simulated" in found else ""
+    warning = " The simulated sessions were played by a program." if "simulated" in found else ""
     return (
-        "Participants memorised the maps of two buildings, labelled the rooms, and carried out a "
-        "rescue mission in each, once with a static and once with an adaptive instructor. "
+        "Participants memorised the maps of two buildings, labelled their rooms, and played a "
+        "rescue mission in each: one with a static and one with an adaptive instructor. "
         f"Sessions: {counts}.{warning}"
     )
 
 
-def _readme(name: str, found: dict[Mode, Tables]) -> str:
+def _readme(name: str, found: dict[StudyMode, Tables]) -> str:
     tables = "\n".join(
         f"- `{table}`: {(row.__doc__ or '').split('.')[0].strip()}."
         for table, row in ROW_TYPES.items()
     )
     return f"""# {name}
 
-{_told(found)} A Psych-DS dataset, written by ana {__version__}.
+{_summary(found)} A Psych-DS dataset, written by ana {__version__}.
 
-- `data/`: tidy tables, one file a table and mode (`session-live`, `-pilot`, `-simulated`).
-- `data/{APART}/`: what participants wrote in their own words. It may identify them: look through
-  it, or delete the folder, before you share the dataset. The dataset stays valid without it.
-- `data/raw/`: the journals, from which everything here was made. In them the answers in own words
-  are empty; otherwise every finished line is as it was written. They hold the time of day.
-- `documentation/`: the codebook, to read and as a table.
-- `materials/`: the study's settings, and every text and question as the participants saw it.
+- `data/`: tidy tables, one file per table and mode (`session-live`, `-pilot`, `-simulated`).
+- `data/{APART}/`: what participants wrote in their own words, which may identify them. Check it,
+  or delete the folder, before you share the dataset; the dataset stays valid without it.
+- `data/raw/`: the journals that everything here was made from. Answers in participants' own words
+  are emptied; every other complete line is unchanged. The journals contain the time of day.
+- `documentation/`: the codebook, as text and as a table.
+- `materials/`: the study's settings, and every text and question as participants saw it.
 
 {tables}
 """
@@ -174,24 +173,28 @@ def _notes(folder: Path) -> DatasetNotes:
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         fields = ", ".join(DatasetNotes.__struct_fields__)
         raise StudyError(
-            f"the notes on the dataset cannot be used: {error}",
+            f"the notes on the dataset are not valid: {error}",
             place=str(path),
-            mend=f"It may have {fields}",
+            hint=f"The file can set {fields}",
         ) from error
 
 
 def _check_target(folder: Path, out: Path, files: dict[str, bytes]) -> None:
-    """Raise StudyError unless `out` is free or an earlier export and nothing else."""
+    """Raise StudyError unless `out` is free or holds an earlier export and nothing else."""
     if folder.resolve().is_relative_to(out.resolve()):
-        raise StudyError("the study itself is in there", place=str(out), mend=_CHOOSE)
+        raise StudyError("this folder contains the study itself", place=str(out), hint=_CHOOSE)
     if not out.exists():
         return
     if not out.is_dir():
-        raise StudyError("this is a file", place=str(out), mend=_CHOOSE)
+        raise StudyError("this is a file, not a folder", place=str(out), hint=_CHOOSE)
     for path in _files(out):
         known = path.as_posix()
         if (known not in files and path.parts[0] != "data") or not (out / DESCRIPTION).exists():
-            raise StudyError(f"{path} is not of an earlier export", place=str(out), mend=_CHOOSE)
+            raise StudyError(
+                f"the folder contains {path}, which is not part of an earlier export",
+                place=str(out),
+                hint=_CHOOSE,
+            )
 
 
 _CHOOSE = "Choose a new folder"
@@ -202,7 +205,7 @@ def _files(root: Path) -> Iterator[Path]:
 
 
 def _replace(out: Path, files: dict[str, bytes]) -> None:
-    """Put the files into `out`, whole or not at all."""
+    """Put all files into `out`, or none."""
     fresh, old = (out.with_name(f".{out.name}.{part}") for part in ("new", "old"))
     try:
         for leftover in (fresh, old):
@@ -216,7 +219,7 @@ def _replace(out: Path, files: dict[str, bytes]) -> None:
         raise StudyError(
             f"the dataset cannot be written ({error.strerror})",
             place=str(out),
-            mend="Free some space, or choose a folder where you may write",
+            hint="Free some space, or choose a folder that you can write to",
         ) from error
     shutil.rmtree(old, ignore_errors=True)
 

@@ -1,7 +1,8 @@
-"""How a session is led from its first phase to its last, whoever takes part.
+"""Conducts a session from its first phase to its last.
 
-The timeline is `protocol`'s; here each phase is played with a `Participant`, which is a set of
-screens or a simulated person. What happened is in the journal before the next thing begins.
+`timeline` says which phase comes next; here each phase is carried out with a `Participant`, which
+is a set of screens or a simulated person. Everything that happened is in the journal before the
+next thing begins.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ from contextlib import suppress
 from typing import Literal, Protocol
 
 from game.coach.spec import CoachSpec
+from game.journal.history import Step
 from game.journal.records import (
+    ROUNDS,
     Allocated,
     Consented,
     Debriefed,
@@ -27,11 +30,17 @@ from game.journal.records import (
 )
 from game.study.chance import shuffled
 from game.study.ledger import NoPlace
-from game.study.practice import Leg, leg_building, leg_settings, leg_start, legs
-from game.study.protocol import ROUNDS, Point, Step, next_point
-from game.study.study_session import StudySession
+from game.study.protocol.practice import (
+    PracticeLeg,
+    leg_building,
+    leg_settings,
+    leg_start,
+    practice_legs,
+)
+from game.study.protocol.study_session import StudySession
+from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
+from game.study.protocol.timeline import Point, next_point
 from game.study.study_settings import ScreenSize
-from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
 from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
@@ -40,14 +49,14 @@ SLIDER_POINTS = 100
 
 
 class Stopped(Exception):
-    """The participant leaves; the session can be resumed."""
+    """The participant stopped; the session can be resumed."""
 
 
 class Participant(Protocol):
-    """Who takes part. Every method returns when its task is done; any may raise Stopped."""
+    """Someone who takes part. Each method returns when its task is done; any may raise Stopped."""
 
     async def check(self, needed: ScreenSize) -> Preflighted:
-        """Have the terminal looked at; returns when it is large enough."""
+        """Check the terminal; returns when it is large enough."""
         ...
 
     async def agree(self, page: Consent) -> bool: ...
@@ -55,7 +64,7 @@ class Participant(Protocol):
     async def read(self, page: Page) -> None: ...
 
     async def look(self, page: Page, building: Building) -> None:
-        """Read a page beside a map with room names, for as long as wanted."""
+        """Read a page beside a map with room names, without a time limit."""
         ...
 
     async def memorise(self, task: Memorising) -> None:
@@ -92,10 +101,10 @@ class Participant(Protocol):
 
 
 async def conduct(session: StudySession, participant: Participant) -> Literal["over", "stopped"]:
-    """Lead the session on from where it is, to its end or until the participant leaves.
+    """Conduct the session from where it is to its end, or until the participant leaves.
 
-    The journal is closed afterwards. Raises JournalError and LedgerError where nothing can be
-    kept; what was recorded until then is.
+    The journal is closed afterwards. Raises JournalError or LedgerError if nothing can be written;
+    everything recorded until then is kept.
     """
     try:
         closing = await _to_the_end(session, participant)
@@ -110,27 +119,27 @@ async def conduct(session: StudySession, participant: Participant) -> Literal["o
 
 
 async def _to_the_end(session: StudySession, who: Participant) -> Page:
-    """Lead the session on until it is over, or there is no place for it; the page to close with."""
+    """Conduct the session until it is over or there is no place for it; returns the last page."""
     texts = session.study.texts
     try:
-        if not session.progress.over:
+        if not session.history.over:
             await session.see_place()
-        while (point := next_point(session.progress, session.study.settings)).step is not None:
+        while (point := next_point(session.history, session.study.settings)).step is not None:
             await _settle(session, point)
             await _PHASES[point.step.phase](session, who, point.step, point.exposure_ms)
     except NoPlace:
         await session.turn_away()
         return texts.no_place
-    if session.progress.declined:
+    if session.history.declined:
         return texts.declined
-    if not session.progress.over:
+    if not session.history.over:
         await session.finish("finished")
     return filled(texts.debrief, code=session.completion_code)
 
 
 async def _settle(session: StudySession, point: Point) -> None:
     for step, ending in point.settle:
-        exposure_ms = session.progress.exposure_ms if step == session.progress.begun else 0
+        exposure_ms = session.history.exposure_ms if step == session.history.begun else 0
         session.enter(step)
         await session.save(PhaseEnded(ending, exposure_ms))
 
@@ -162,8 +171,8 @@ async def _practice(session: StudySession, who: Participant, step: Step, _seen_m
     await _start(session, step, None)
     study, texts = session.study, session.study.texts
     settings = leg_settings(study.settings.mission)
-    planned = legs(study.practice, session.seed)
-    done = min(session.answers.legs, len(planned))
+    planned = practice_legs(study.practice, session.seed)
+    done = min(session.history.treated_in_practice, len(planned))
     if done == 0:
         await who.read(texts.practice)
         await who.read(texts.lessons.walking)
@@ -183,8 +192,8 @@ async def _practice(session: StudySession, who: Participant, step: Step, _seen_m
     )
 
 
-async def _teach(session: StudySession, who: Participant, leg: Leg, *, again: bool) -> None:
-    """Explain the kind of instruction of a leg that is the first of it, here or in this segment."""
+async def _teach(session: StudySession, who: Participant, leg: PracticeLeg, *, again: bool) -> None:
+    """Explain a leg's kind of instruction if this is its first leg, or the first after a resume."""
     if leg.opens_kind or again:
         lesson = session.study.texts.lessons.of(leg.level)
         if lesson.map:
@@ -194,7 +203,7 @@ async def _teach(session: StudySession, who: Participant, leg: Leg, *, again: bo
 
 
 async def _check(session: StudySession, who: Participant) -> int:
-    """The check at the end of practice, each answer told right or wrong; returns how many were."""
+    """The check at the end of practice, with feedback; returns the number of right answers."""
     texts, right = session.study.texts, 0
     for check in session.study.items.check:
         asked = Asked(check.id, check.text, check.answers, 1, len(check.answers))
@@ -262,7 +271,7 @@ async def _sliders(session: StudySession, who: Participant, step: Step, _seen_ms
         for slider in shuffled(items.slider, lambda it: it.id, session.seed, "sliders", step.round)
     )
     page = filled(texts.mental_state, instructor=texts.instructors.of(step.round))
-    if session.progress.endings.get(Step("mission", step.round)) == "interrupted":
+    if session.history.endings.get(Step("mission", step.round)) == "interrupted":
         page = preceded(page, texts.cut_off.mission)
     await who.slide(page, Sheet(session, asked))
     await session.save(PhaseEnded("completed", 0))
@@ -282,7 +291,7 @@ async def _preference(session: StudySession, who: Participant, step: Step, _seen
     await _start(session, step, None)
     texts = session.study.texts
     options = texts.instructors.first, texts.instructors.second
-    if session.answers.preference is None:
+    if session.history.preference is None:
         page, shown_ms = texts.preference, session.now_ms()
         preferred = await who.prefer(page, options)
         await session.save(
@@ -303,7 +312,7 @@ async def _preference(session: StudySession, who: Participant, step: Step, _seen
 
 
 async def _debrief(session: StudySession, _who: Participant, step: Step, _seen_ms: int) -> None:
-    """The last page is shown when all that it says is true."""
+    """The last page is shown only once everything that it says is true."""
     await _start(session, step, None)
     await session.save(Debriefed(session.completion_code), PhaseEnded("completed", 0))
 
@@ -323,21 +332,21 @@ _PHASES: dict[Phase, Callable[[StudySession, Participant, Step, int], Awaitable[
 
 
 def instructor(allocated: Allocated, round_: int, preset: str) -> CoachSpec:
-    """Who coaches a round."""
+    """The instructor of a round."""
     if allocated.adaptive_first is (round_ == ROUNDS[0]):
         return CoachSpec("ana", preset=preset)
     return CoachSpec("static", level=allocated.static_level)
 
 
 async def _allocated(session: StudySession) -> Allocated:
-    if session.progress.allocated is None:
+    if session.history.allocated is None:
         await session.allocate()
-    allocated = session.progress.allocated
+    allocated = session.history.allocated
     assert allocated is not None
     return allocated
 
 
 def _building(session: StudySession, step: Step) -> Building:
-    allocated = session.progress.allocated
+    allocated = session.history.allocated
     assert allocated is not None
     return session.study.building(allocated.buildings[step.round - 1])

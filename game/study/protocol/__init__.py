@@ -1,0 +1,1 @@
+"""What a participant goes through: the timeline, the tasks, and the session that records them."""

@@ -1,0 +1,276 @@
+# The reference numbers of this folder, by R: `make reference` computes them all again and fails when
+# one has moved; `make reference WRITE=1` writes them. Run from this folder.
+#
+# Debian: r-base-core r-cran-afex r-cran-emmeans r-cran-car r-cran-lmertest r-cran-psych
+#         r-cran-effectsize r-cran-bayesfactor r-cran-ordinal
+
+suppressPackageStartupMessages({
+  library(afex); library(emmeans); library(car); library(lmerTest); library(psych)
+  library(BayesFactor); library(effectsize); library(ordinal); library(jsonlite)
+})
+source("clustering.R")
+options(contrasts = c("contr.sum", "contr.poly"), digits = 15, warn = 1)
+emm_options(msg.interaction = FALSE, msg.nesting = FALSE)
+afex_options(method_mixed = "S")
+
+DATASETS <- c("unbalanced", "partial", "ties", "small")
+OUTCOMES <- c("victims", "engagement", "confidence", "frustration", "confusion", "preference")
+STATES <- c("engagement", "confidence", "frustration", "confusion")
+ITEMS <- paste0("pref", 1:4)
+BETWEEN <- c("knowledge", "complexity", "knowledge:complexity")
+EFFECTS <- c("(Intercept)", BETWEEN, "adaptivity", paste0(BETWEEN, ":adaptivity"))
+TOLERANCE <- 1e-6
+
+in_order <- function(effect) gsub("complexity:adaptivity:knowledge", "knowledge:complexity:adaptivity", effect)
+records <- function(frame) lapply(seq_len(nrow(frame)), function(i) as.list(frame[i, , drop = FALSE]))
+
+read_long <- function(name) {
+  data <- read.csv(paste0(name, ".csv"), colClasses = c(participant = "character"))
+  data$preference <- rowSums(data[ITEMS])
+  data$knowledge <- factor(data$knowledge, levels = group_names)
+  data$complexity <- factor(data$complexity, levels = c("C1", "C2", "C3"))
+  data$adaptivity <- factor(data$adaptivity, levels = c("static", "adaptive"))
+  data$participant <- factor(data$participant)
+  data[order(data$participant, data$adaptivity), ]
+}
+
+wide_of <- function(data, outcome) {
+  both <- merge(data[data$adaptivity == "static", c("participant", "knowledge", "complexity", outcome)],
+                data[data$adaptivity == "adaptive", c("participant", outcome)],
+                by = "participant", suffixes = c(".s", ".a"))
+  names(both)[4:5] <- c("s", "a")
+  both[complete.cases(both), ]
+}
+
+# --- knowledge groups and reliability -------------------------------------------------------------
+
+clustering_of <- function(name) {
+  quiz <- read.csv(paste0(name, "_quiz.csv"), colClasses = c(participant = "character"))
+  found <- three_clusters(quiz$quiz_static)
+  list(withinss = found$total, second_best_withinss = found$second, max_low = found$low,
+       max_med = found$med,
+       boundaries = c((found$low + found$next_low) / 2, (found$med + found$next_med) / 2),
+       centers = unname(found$centers),
+       sizes = setNames(as.list(unname(found$sizes)), group_names),
+       labels = setNames(as.list(groups_of(quiz$quiz_static, found)), quiz$participant))
+}
+
+alpha_of <- function(rows) {
+  items <- rows[ITEMS]
+  whole <- items[complete.cases(items), ]
+  raw <- function(x, ...) suppressWarnings(psych::alpha(x, warnings = FALSE, ...)$total$raw_alpha)
+  feldt <- psych::alpha.ci(raw(whole), n.obs = nrow(whole), n.var = length(ITEMS))
+  list(rows_any = sum(rowSums(!is.na(items)) > 0), rows_complete = nrow(whole),
+       listwise = raw(whole), pairwise = raw(items, use = "pairwise"),
+       lower = feldt$lower.ci[[1]], upper = feldt$upper.ci[[1]])
+}
+
+# --- the mixed ANOVA, its cells and contrasts -----------------------------------------------------
+
+anova_of <- function(wide) {
+  mean_fit <- lm((s + a) / sqrt(2) ~ knowledge * complexity, wide)
+  diff_fit <- lm((a - s) / sqrt(2) ~ knowledge * complexity, wide)
+  long <- rbind(transform(wide, y = s, adaptivity = "static"),
+                transform(wide, y = a, adaptivity = "adaptive"))
+  long$adaptivity <- factor(long$adaptivity, levels = c("static", "adaptive"))
+  fit <- suppressMessages(suppressWarnings(aov_ez(
+    "participant", "y", long, between = c("knowledge", "complexity"), within = "adaptivity", type = 3)))
+  table <- summary(fit)$univariate.tests
+  ges <- function(observed) {
+    shown <- suppressWarnings(anova(fit, es = c("ges", "pes"), observed = observed, intercept = TRUE))
+    setNames(shown$ges, rownames(shown))
+  }
+  none <- ges(character(0)); knowledge <- ges("knowledge")
+  rows <- lapply(EFFECTS, function(effect) {
+    at <- table[effect, ]
+    within <- grepl("adaptivity", effect)
+    list(effect = effect, df1 = at[["num Df"]], df2 = at[["den Df"]], ss = at[["Sum Sq"]],
+         ss_error = at[["Error SS"]], mse = at[["Error SS"]] / at[["den Df"]], F = at[["F value"]],
+         p = at[["Pr(>F)"]], pes = at[["Sum Sq"]] / (at[["Sum Sq"]] + at[["Error SS"]]),
+         ges = none[[effect]], ges_obs_knowledge = knowledge[[effect]],
+         wilks = if (within) at[["Error SS"]] / (at[["Sum Sq"]] + at[["Error SS"]]) else NULL)
+  })
+  list(rows = rows, fit = fit, long = long, mean_fit = mean_fit, diff_fit = diff_fit)
+}
+
+adjusted <- function(emm, by, what = "pairwise") {
+  shown <- function(adjust) as.data.frame(summary(contrast(emm, what, by = by), adjust = adjust))
+  base <- shown("none")
+  out <- base[setdiff(names(base), "p.value")]
+  for (adjust in c("none", "bonf", "sidak", "holm")) out[[paste0("p_", adjust)]] <- shown(adjust)$p.value
+  out
+}
+
+emm_rows <- function(fit, specs) records(as.data.frame(emmeans(fit, specs)))
+
+plain <- function(frame) { frame[] <- lapply(frame, function(x) if (is.factor(x)) as.character(x) else x); frame }
+
+type3 <- function(fit, ...) Anova(fit, type = 3, ...)
+
+wrong_of <- function(made, wide) {
+  data <- made$long
+  two <- suppressMessages(suppressWarnings(aov_ez("participant", "y", data,
+    between = c("knowledge", "complexity"), within = "adaptivity", type = 2)))
+  treated <- lapply(list(mean = "mean_fit", diff = "diff_fit"), function(which) {
+    y <- if (which == "mean_fit") (wide$s + wide$a) / sqrt(2) else (wide$a - wide$s) / sqrt(2)
+    fit <- lm(y ~ knowledge * complexity, wide,
+              contrasts = list(knowledge = "contr.treatment", complexity = "contr.treatment"))
+    table <- type3(fit)
+    setNames(table[["F value"]], rownames(table))
+  })
+  static <- split(wide$s, list(wide$knowledge, wide$complexity))
+  welch <- do.call(c, lapply(group_names, function(k) lapply(list(c("C1", "C2"), c("C1", "C3"), c("C2", "C3")),
+    function(pair) {
+      test <- t.test(static[[paste0(k, ".", pair[1])]], static[[paste0(k, ".", pair[2])]])
+      list(knowledge = k, contrast = paste(pair, collapse = " - "), t = test$statistic[[1]], p = test$p.value)
+    })))
+  f <- summary(two)$univariate.tests
+  list(type2_F = setNames(as.list(f[EFFECTS, "F value"]), EFFECTS),
+       treatment_coded_type3_F = c(
+         setNames(as.list(treated$mean[BETWEEN]), BETWEEN),
+         list(adaptivity = treated$diff[["(Intercept)"]]),
+         setNames(as.list(treated$diff[BETWEEN]), paste0(BETWEEN, ":adaptivity"))),
+       adaptivity_paired_t_squared_F = t.test(wide$a, wide$s, paired = TRUE)$statistic[[1]]^2,
+       welch_pairs_static = welch)
+}
+
+# --- what the ANOVA assumes, and other tests of the same questions --------------------------------
+
+assumptions_of <- function(wide) {
+  cell <- interaction(wide$knowledge, wide$complexity)
+  variables <- list(static = wide$s, adaptive = wide$a, diff = wide$a - wide$s)
+  levene <- function(center) lapply(variables, function(y) {
+    table <- leveneTest(y, cell, center = center)
+    list(F = table[["F value"]][1], df1 = table$Df[1], df2 = table$Df[2], p = table[["Pr(>F)"]][1])
+  })
+  shapiro <- function(y) {
+    test <- shapiro.test(residuals(lm(y ~ cell)))
+    list(W = test$statistic[[1]], p = test$p.value)
+  }
+  list(levene_mean = levene(mean), levene_median = levene(median),
+       shapiro_resid = list(mean = shapiro((wide$s + wide$a) / 2), diff = shapiro(wide$a - wide$s)))
+}
+
+hc3_of <- function(wide) {
+  fit <- lm(a - s ~ knowledge * complexity, wide)
+  table <- suppressMessages(Anova(fit, type = 3, white.adjust = "hc3"))
+  names <- c("adaptivity", paste0(BETWEEN, ":adaptivity"))
+  lapply(seq_along(names), function(i) list(effect = names[i], F = table$F[i], p = table[["Pr(>F)"]][i]))
+}
+
+paired_of <- function(wide) {
+  d <- wide$a - wide$s
+  test <- t.test(d)
+  # The bound is half a standard deviation of the static round, the smallest effect of interest.
+  bound <- 0.5 * sd(wide$s)
+  n <- length(d); se <- sd(d) / sqrt(n)
+  low <- pt((mean(d) + bound) / se, n - 1, lower.tail = FALSE)
+  high <- pt((mean(d) - bound) / se, n - 1)
+  list(mean_diff = mean(d), sd_diff = sd(d), t = test$statistic[[1]], df = n - 1, p = test$p.value,
+       dz = mean(d) / sd(d),
+       bf10_jzs_r0707 = extractBF(ttestBF(d, rscale = sqrt(2) / 2), onlybf = TRUE)[[1]],
+       tost_bound = bound, tost_p = max(low, high))
+}
+
+# A mixed model keeps partial rows. The denominator degrees of freedom belong to the sum-coded basis
+# of contrasts, as `contest` gives them for it; `anova` makes a basis of its own, and on partial rows
+# gives others.
+lmm_of <- function(data, outcome) {
+  rows <- data[!is.na(data[[outcome]]), ]
+  rows$y <- rows[[outcome]]
+  fit <- suppressMessages(lmer(y ~ knowledge * complexity * adaptivity + (1 | participant), rows,
+    REML = TRUE, control = lmerControl(optimizer = "bobyqa", optCtrl = list(rhoend = 1e-10))))
+  terms <- attr(terms(fit), "term.labels")
+  columns <- attr(model.matrix(fit), "assign")
+  tests <- lapply(seq_along(terms), function(i) {
+    picked <- diag(length(columns))[columns == i, , drop = FALSE]
+    test <- contestMD(fit, picked)
+    list(effect = terms[i], F = test[["F value"]], df1 = test$NumDF, df2 = test$DenDF, p = test[["Pr(>F)"]])
+  })
+  variances <- as.data.frame(VarCorr(fit))$vcov
+  estimates <- coef(summary(fit))
+  list(n_rows = nrow(rows), n_participants = length(unique(rows$participant)),
+       var_participant = variances[1], var_resid = variances[2],
+       reml_loglik = as.numeric(logLik(fit)), singular = isSingular(fit),
+       fixef = lapply(rownames(estimates), function(term) list(
+         term = term, est = estimates[term, "Estimate"], se = estimates[term, "Std. Error"])),
+       anova = tests)
+}
+
+outcome_of <- function(data, outcome) {
+  wide <- wide_of(data, outcome)
+  people <- length(unique(data$participant[!is.na(data[[outcome]]) | TRUE]))
+  made <- anova_of(wide)
+  fit <- made$fit
+  cells <- do.call(rbind, lapply(group_names, function(k) do.call(rbind, lapply(levels(data$complexity), function(c) {
+    here <- wide[wide$knowledge == k & wide$complexity == c, ]
+    data.frame(knowledge = k, complexity = c, adaptivity = c("static", "adaptive"), n = nrow(here),
+               mean = c(mean(here$s), mean(here$a)), sd = c(sd(here$s), sd(here$a)))
+  }))))
+  full <- emmeans(fit, ~ knowledge * complexity * adaptivity)
+  diff_fit <- lm(a - s ~ knowledge * complexity, wide)
+  diffs <- emmeans(diff_fit, ~ knowledge * complexity)
+  all36 <- adjusted(diffs, NULL)
+  all36$p_tukey <- as.data.frame(summary(contrast(diffs, "pairwise"), adjust = "tukey"))$p.value
+  simple <- as.data.frame(contrast(full, "revpairwise", by = c("knowledge", "complexity")))
+  marginal <- as.data.frame(confint(contrast(emmeans(fit, ~ adaptivity), "revpairwise"), level = 0.9))
+  list(
+    n = nrow(wide), n_dropped = people - nrow(wide), anova = made$rows, cells = records(cells),
+    emm = list(knowledge = emm_rows(fit, "knowledge"), complexity = emm_rows(fit, "complexity"),
+               adaptivity = emm_rows(fit, "adaptivity"),
+               knowledge_complexity_adaptivity = records(plain(as.data.frame(full)))),
+    posthoc_complexity_within_knowledge_by_round = records(plain(adjusted(full, c("knowledge", "adaptivity"), "pairwise"))),
+    posthoc_complexity_within_knowledge_avg = records(plain(adjusted(emmeans(fit, ~ complexity | knowledge), "knowledge"))),
+    simple_adaptivity_within_cell = records(plain(simple)),
+    posthoc_diff_knowledge_within_complexity = records(plain(adjusted(diffs, "complexity"))),
+    posthoc_diff_all36 = records(plain(all36)),
+    adaptivity_marginal = records(plain(marginal)),
+    wrong = wrong_of(made, wide), assumptions = assumptions_of(wide), hc3_diff = hc3_of(wide),
+    paired = paired_of(wide), lmm = lmm_of(data, outcome))
+}
+
+reference_of <- function(name) {
+  data <- read_long(name)
+  outcomes <- lapply(setNames(OUTCOMES, OUTCOMES), function(outcome) outcome_of(data, outcome))
+  p_of <- function(state, effect) Filter(function(row) row$effect == effect, outcomes[[state]]$anova)[[1]]$p
+  holm <- lapply(setNames(EFFECTS, EFFECTS), function(effect)
+    as.list(setNames(p.adjust(sapply(STATES, p_of, effect = effect), "holm"), STATES)))
+  list(dataset = name, clustering = clustering_of(name),
+       alpha = list(all = alpha_of(data), static = alpha_of(data[data$adaptivity == "static", ]),
+                    adaptive = alpha_of(data[data$adaptivity == "adaptive", ])),
+       outcomes = outcomes, holm_across_mental_states = holm)
+}
+
+# --- compare or write -----------------------------------------------------------------------------
+
+moved <- function(old, new, path) {
+  if (is.list(old) || is.list(new)) {
+    if (length(old) != length(new) || !identical(sort(names(old)), sort(names(new))))
+      return(paste0(path, ": other keys"))
+    keys <- if (is.null(names(old))) seq_along(old) else names(old)
+    return(unlist(lapply(keys, function(key) moved(old[[key]], new[[key]], paste0(path, ".", key)))))
+  }
+  if (is.null(old) && is.null(new)) return(NULL)
+  if (length(old) > 1) return(unlist(lapply(seq_along(old), function(i) moved(old[i], new[i], paste0(path, "[", i, "]")))))
+  same <- if (is.numeric(old) && is.numeric(new)) {
+    tolerance <- if (grepl("lmm", path)) 1e-4 else TOLERANCE
+    is.finite(new) && abs(old - new) <= tolerance * max(1e-3, abs(old), abs(new))
+  } else identical(as.character(old), as.character(new))
+  if (isTRUE(same)) NULL else paste0(path, ": ", format(old, digits = 12), " was, ", format(new, digits = 12), " is")
+}
+
+write <- identical(Sys.getenv("WRITE"), "1")
+failures <- character(0)
+for (name in DATASETS) {
+  cat(name, "...\n")
+  text <- toJSON(reference_of(name), auto_unbox = TRUE, digits = NA, null = "null", na = "null")
+  file <- paste0(name, ".json")
+  if (write) writeLines(text, file)
+  else failures <- c(failures, moved(fromJSON(file, simplifyVector = FALSE),
+                                     fromJSON(text, simplifyVector = FALSE), name))
+}
+if (length(failures)) {
+  cat(paste0("moved: ", failures, "\n"), sep = "")
+  quit(status = 1)
+}
+cat(if (write) "written\n" else "every number is where it was\n")
