@@ -14,7 +14,7 @@ import pandas as pd
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES
 from analysis.sources.frames import StudyData, make_study
-from game.tables.columns import Column, cells, columns
+from game.tables.columns import TableColumn, cells, columns
 from game.tables.session_tables import ROW_TYPES
 
 #: What analyses read; actions are many, and texts in own words may identify a person.
@@ -100,7 +100,7 @@ def typed(name: str, table: Sequence[Sequence[str]]) -> pd.DataFrame:
     return pd.DataFrame({column.name: _converted(text, column) for column in described})
 
 
-def _converted(text: pd.DataFrame, column: Column) -> "pd.Series":
+def _converted(text: pd.DataFrame, column: TableColumn) -> "pd.Series":
     values = text[column.name]
     if column.values == "true, false":
         truths = values.map({"true": True, "false": False})

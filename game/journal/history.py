@@ -1,7 +1,7 @@
-"""What a journal tells: the one fold over its records, which everybody else asks.
+"""What happened, according to a journal: the one place that adds up its records.
 
 A live session and the experimenter's screen feed a `History` record by record; `read_history` makes
-one of a whole journal.
+one from a whole journal. Everything else asks these.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from game.coach.acts import Disobeyed, InstructionIssued, Level, LevelChanged, Misstep
+from game.coach.acts import CoachAct, Disobeyed, InstructionIssued, Level, LevelChanged, Misstep
 from game.journal.reader import Entry, Transcript
 from game.journal.records import (
     Allocated,
@@ -42,7 +42,7 @@ from game.journal.records import (
     Versions,
     Withdrawn,
 )
-from game.world.events import Acted, Expired, MissionEnded, Outcome, Rescued
+from game.world.events import Acted, Event, Expired, MissionEnded, Outcome, Rescued
 from game.world.geometry import Cell
 
 PhaseEnding = Literal["completed", "timed_out", "interrupted", "void"]
@@ -56,14 +56,15 @@ class Step(NamedTuple):
 
 
 class Happening(NamedTuple):
-    """A mission event or coach record, and the line it stands in."""
+    """A mission event or coach record, and its line in the journal."""
 
     line: int
     record: RunRecord
 
 
 class LevelSpan(NamedTuple):
-    """A stretch of a mission at one level, in mission time; `comprehension` is what led to it."""
+    """A stretch of a mission at one level, in mission time; `comprehension` is what led to it,
+    None for the first level and for a coach that does not judge by it."""
 
     level: Level
     from_ms: int
@@ -73,14 +74,14 @@ class LevelSpan(NamedTuple):
 
 @dataclass
 class MissionHistory:
-    """One mission as its journal has it, as far as it has been noted.
+    """One mission, as far as its records have been noted.
 
-    `end` is `ended`, `abandoned` (its player left it at `until_ms`), `cut` (its process ended;
-    what fell due by then may be missing) or `dropped` (the session went on without either, which
-    no game does). `until_ms` is the mission time up to which it runs. `path` are the cells walked
-    to; `fates` when each victim was rescued or expired; `disobeyed` the kinds, in order; `texts`
-    how often the words on the bar changed; `level_changes` when which level came into force, and by
-    what comprehension.
+    `end` is `ended`, `abandoned` (the player left it at `until_ms`), `cut` (the process ended; the
+    last events may be missing) or `dropped` (the session continued without either, which no game
+    does). `until_ms` is the mission time of its end so far. `path` holds the cells walked to,
+    `fates` when each victim was rescued or expired, `disobeyed` the kinds of disobedience in order.
+    `texts` counts how often the words on the bar changed. `level_changes` holds when each level
+    came into force, the level, and the comprehension that led to it.
     """
 
     line: int
@@ -131,23 +132,22 @@ class MissionHistory:
     def records(self) -> Iterator[RunRecord]:
         return (happening.record for happening in self.happened)
 
-    def levels(self, until_ms: int | None = None) -> Iterator[LevelSpan]:
-        """The stretches at one level, those of no length left out."""
-        ends = [at_ms for at_ms, _, _ in self.level_changes[1:]]
-        ends.append(self.until_ms if until_ms is None else until_ms)
+    def levels(self) -> Iterator[LevelSpan]:
+        """The stretches at one level; empty ones are left out."""
+        ends = [*(at_ms for at_ms, _, _ in self.level_changes[1:]), self.until_ms]
         for (from_ms, level, comprehension), end_ms in zip(self.level_changes, ends, strict=False):
             if end_ms > from_ms:
                 yield LevelSpan(level, from_ms, end_ms, comprehension)
 
     def drop(self) -> None:
-        """The session goes on without an end of the mission."""
+        """The session continued although the mission had no end."""
         if self.end == "cut":
             self.end = "dropped"
 
 
 @dataclass
 class PhaseSpan:
-    """One phase as it was gone through; `starts` counts how often it was begun or continued."""
+    """How one phase went; `starts` counts how often it was started or continued."""
 
     started_utc: str
     ended_utc: str | None = None
@@ -162,12 +162,12 @@ class PhaseSpan:
 
 @dataclass
 class History:
-    """A session as far as it has been noted. Of answers given more than once, the last counts.
+    """A session, as far as its records have been noted. The last answer to each question counts.
 
-    `begun` is the step under way, with `exposure_ms` of it seen and `limit_ms` of it to be had;
-    `endings` are those of the steps behind. `over` tells that nothing follows. `left` is the
-    session's end where that is the last record. `strays` are mission events and coach records that
-    stand outside every mission; there should be none.
+    `begun` is the current step, `exposure_ms` how long it has been on the screen, and `limit_ms`
+    the time it had left when it last started. `endings` holds how earlier steps ended. `over` is
+    true if nothing can follow. `left` is the session's end, if that is the last record. `strays`
+    holds mission events and coach records outside every mission; there should be none.
     """
 
     versions: Versions | None = None
@@ -206,7 +206,7 @@ class History:
 
     @property
     def treated_in_practice(self) -> int:
-        """How many victims were rescued in practice."""
+        """How many victims were treated in practice."""
         return sum(
             fate == "rescued"
             for mission in self.missions
@@ -220,7 +220,7 @@ class History:
         )
 
     def names_given(self, round_: int) -> dict[str, str]:
-        """The names given to rooms in a round, by room."""
+        """The names given to rooms in a round, by the rooms' true names."""
         return {
             room: answer.answer
             for (number, room), (answer, _) in self.labels.items()
@@ -228,7 +228,7 @@ class History:
         }
 
     def note(self, envelope: Envelope, record: Record | None, line: int = 0) -> None:
-        """Take account of one record; None where only its frame is known."""
+        """Take account of one record; None if only its envelope is known."""
         step = Step(envelope.phase, envelope.round)
         self.started_utc = self.started_utc or envelope.utc
         self.ended_utc = envelope.utc
@@ -236,17 +236,19 @@ class History:
             self.step = step
         self.left = record if isinstance(record, SessionEnded) else None
         match record:
+            case None:
+                pass
+            case Event() | CoachAct():
+                if self._mission is None:
+                    self.strays.append(Entry(line, envelope, record))
+                else:
+                    self._mission.note(line, record)
             case MissionStarted() | MissionAbandoned():
                 self._note_mission(step, record, line)
             case PhaseStarted() | PhaseEnded() | Exposed():
                 self._note_phase(step, envelope.utc, record)
             case QuestionnaireAnswer() | QuizAnswer() | QuizSubmitted() | FreeText():
                 self._note_answer(step, record)
-            case _ if isinstance(record, RunRecord):
-                if self._mission is None:
-                    self.strays.append(Entry(line, envelope, record))
-                else:
-                    self._mission.note(line, record)
             case _:
                 self._note_frame(record)
 
@@ -264,7 +266,7 @@ class History:
             case FreeText():
                 self.free_texts.append(record)
 
-    def _note_once(self, record: Record | None) -> None:
+    def _note_once(self, record: Record) -> None:
         match record:
             case Consented():
                 self.consent_version = record.version
@@ -282,7 +284,7 @@ class History:
             case _:
                 pass
 
-    def _note_frame(self, record: Record | None) -> None:
+    def _note_frame(self, record: Record) -> None:
         match record:
             case SessionStarted():
                 self.versions, self.terminal = record.versions, record.terminal
@@ -347,7 +349,7 @@ def history_of(records: Iterable[tuple[Envelope, Record]]) -> History:
 
 
 def read_history(transcript: Transcript) -> History:
-    """What a whole journal tells."""
+    """The history of a whole journal."""
     history = History(torn_bytes=transcript.torn_bytes)
     for entry in transcript.entries:
         history.note(entry.envelope, entry.record, entry.line)

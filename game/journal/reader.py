@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from game.journal.failures import JournalError, cannot_read
+from game.journal.journal_error import JournalError, cannot_read
 from game.journal.records import SCHEMA_VERSION, Envelope, Record, Resumed, SessionStarted
 from game.journal.upgrades import UPGRADES, Upgrade, upgraded
 

@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol, Self
 
-from game.journal.failures import JournalError, cannot_write
+from game.journal.journal_error import JournalError, cannot_write
 
 SYNC_AFTER_S = 0.5
 """The delay between writing lines and asking the system to put them on disk."""

@@ -13,8 +13,8 @@ from copy import deepcopy
 from typing import NamedTuple
 
 from game.coach.acts import LevelChanged
-from game.journal.failures import JournalError
 from game.journal.history import Happening, MissionHistory, read_history
+from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import RunRecord
 from game.journal.thoughts import Thoughts
@@ -74,7 +74,7 @@ class Replay:
         return self._records[: self._now.done]
 
     def so_far(self) -> MissionHistory:
-        """The mission as far as it has gone now."""
+        """The history of the mission up to and including this moment."""
         recorded = self.recorded
         past = MissionHistory(recorded.line, recorded.step, self.started)
         for record in self.records:

@@ -13,8 +13,8 @@ import msgspec
 
 from game.coach.spec import build_coach
 from game.errors import AnaError
-from game.journal.failures import JournalError
 from game.journal.history import MissionHistory, read_history
+from game.journal.journal_error import JournalError
 from game.journal.reader import (
     Difference,
     Entry,
@@ -57,7 +57,7 @@ def verify(path: Path, *, build: CoachBuilder = build_coach) -> Verification:
 
 
 def verify_transcript(transcript: Transcript, *, build: CoachBuilder = build_coach) -> Verification:
-    """Verify a journal whose lines were each read, but not yet held against each other."""
+    """Verify a journal whose lines were each read, but not yet compared with each other."""
     history = read_history(transcript)
     played = history.missions
     differences = (
@@ -122,7 +122,7 @@ def _first(mission: MissionHistory, build: CoachBuilder) -> Difference | None:
 
 
 def _unplayable(mission: MissionHistory) -> Difference | None:
-    """What in `mission_started` rules out that playing it again gives the same."""
+    """The field of `mission_started` that makes an identical replay impossible, if any."""
     started = mission.started
     sha256_of_text = sha256(started.building_text.encode()).hexdigest()
     must_agree = (
@@ -151,7 +151,7 @@ def _replayed(mission: MissionHistory, build: CoachBuilder) -> Difference | None
 
 
 def _play(run: MissionRun, mission: MissionHistory) -> Difference | None:
-    """Play the mission's actions; the first that cannot be carried out, if there is one."""
+    """Play the mission's actions; returns the first that cannot be carried out, if any."""
     run.begin()
     line = mission.line
     try:
@@ -166,7 +166,7 @@ def _play(run: MissionRun, mission: MissionHistory) -> Difference | None:
 
 
 def _compared(mission: MissionHistory, again: Sequence[RunRecord]) -> Difference | None:
-    """The first recorded record that differs from the one recomputed in its place."""
+    """The first record that differs from the one recomputed in its place."""
     line = mission.line
     for place, (line, recorded) in enumerate(mission.happened):
         expected = again[place] if place < len(again) else None

@@ -1,7 +1,7 @@
-"""Tables described by the types of their rows: what each column means, its unit and its values.
+"""Tables described by their row types: what each column means, its unit and its values.
 
-A row is a `msgspec.Struct` whose fields are `Annotated` with `col(...)`. From that one place
-come the header of a table, its codebook, and the text of its cells.
+A row is a `msgspec.Struct` whose fields are `Annotated` with `col(...)`. The header of a table,
+its codebook and the text of its cells all come from that.
 """
 
 from __future__ import annotations
@@ -10,24 +10,23 @@ import types
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
-from functools import cache
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import msgspec
 
 DIGITS = 9
-"""Reals are written to this many places after the point."""
+"""Real numbers are written with up to this many decimals."""
 
 
 def col(meaning: str, unit: str = "") -> msgspec.Meta:
-    """What a field of a row means, and the unit of its values."""
+    """Describes a field of a row: what it means, and the unit of its values."""
     return msgspec.Meta(description=meaning, extra={"unit": unit})
 
 
 @dataclass(frozen=True)
-class Column:
-    """A column of a table. `values` says in words what a cell can hold; where `optional`, a cell
-    is empty if there is nothing to tell."""
+class TableColumn:
+    """A column of a table. `values` says in words what a cell can hold; if `optional`, a cell may
+    be empty."""
 
     name: str
     meaning: str
@@ -36,24 +35,23 @@ class Column:
     optional: bool
 
 
-@cache
-def columns(row: type[msgspec.Struct]) -> tuple[Column, ...]:
-    """The columns of a table with such rows, in order.
+def columns(row: type[msgspec.Struct]) -> tuple[TableColumn, ...]:
+    """The columns of a table with these rows, in order.
 
-    Raises TypeError, naming the field, where one is not described.
+    Raises TypeError, naming the field, if one is not described.
     """
     hints = get_type_hints(row, include_extras=True)
     return tuple(_described(name, hints[name]) for name in row.__struct_fields__)
 
 
 def cells(row: msgspec.Struct) -> Iterator[str]:
-    """The cells of a row as a table has them, in the order of its columns."""
+    """The text of a row's cells, in the order of the columns."""
     for name in row.__struct_fields__:
         yield cell(getattr(row, name))
 
 
 def cell(value: object) -> str:
-    """A value as text on one line: nothing for None, lower case for truths; no line breaks."""
+    """A value as text on one line: empty for None, `true` or `false` for a bool."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -63,14 +61,14 @@ def cell(value: object) -> str:
     return " ".join(str(value).split())
 
 
-def _described(name: str, hint: Any) -> Column:
+def _described(name: str, hint: Any) -> TableColumn:
     if get_origin(hint) is not Annotated:
         raise TypeError(f"the column {name} is not described")
     kind, meta = get_args(hint)
     kinds = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
     known = [one for one in kinds if one is not type(None)]
     values = " or ".join(_values(one) for one in known)
-    return Column(name, meta.description, meta.extra["unit"], values, len(known) < len(kinds))
+    return TableColumn(name, meta.description, meta.extra["unit"], values, len(known) < len(kinds))
 
 
 def _values(kind: Any) -> str:

@@ -42,13 +42,14 @@ _HEADINGS: dict[Heading, HeadingName] = {
 
 
 def level_name(level: Level) -> LevelName:
-    """The level as the tables write it."""
+    """The name of a level in the tables."""
     return _LEVELS[level]
 
 
 @dataclass(frozen=True)
 class MissionTables:
-    """The mission of one participant's round, in `plan`, which the study calls `building`."""
+    """The mission of one participant's round; it took place in `plan`, which the study's settings
+    call `building`."""
 
     participant: str
     round: int
@@ -59,7 +60,7 @@ class MissionTables:
 
     @property
     def shared(self) -> dict[str, Any]:
-        """The columns that all tables of a mission have."""
+        """The columns that the tables of a mission share."""
         return {
             "participant": self.participant,
             "round": self.round,

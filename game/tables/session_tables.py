@@ -1,7 +1,7 @@
-"""The tidy tables of a study, made from its journals: pure, and the same for everyone.
+"""The tidy tables of a study, made from its journals: pure, and the same for every use.
 
-`session_tables` turns one journal into rows, `combined` puts sessions together. Exports write the
-rows to files, analyses read them into frames; neither looks at a journal itself.
+`session_tables` turns one journal into rows; `combined` joins the rows of many sessions. Exports
+write the rows to files and analyses read them into frames; neither reads a journal itself.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import Any
 
 import msgspec
 
-from game.journal.failures import JournalError
 from game.journal.history import History, PhaseSpan, Step, read_history
+from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import ROUNDS, Allocated, Phase
 from game.tables.mission_tables import MissionTables, level_name
@@ -30,7 +30,7 @@ from game.tables.rows import (
     PhaseRow,
     PosteriorRow,
     RoundRow,
-    Row,
+    TableRow,
     VictimRow,
 )
 from game.world.building import Building, Severity
@@ -45,7 +45,7 @@ MS_PER_MINUTE = 60_000
 
 @dataclass(frozen=True)
 class Tables:
-    """All rows of one session, or of many, in a fixed order."""
+    """All rows of one or more sessions, in a fixed order."""
 
     participants: tuple[ParticipantRow, ...] = ()
     rounds: tuple[RoundRow, ...] = ()
@@ -59,13 +59,13 @@ class Tables:
     phases: tuple[PhaseRow, ...] = ()
     freetext: tuple[FreeTextRow, ...] = ()
 
-    def table(self, name: str) -> tuple[Row, ...]:
+    def table(self, name: str) -> tuple[TableRow, ...]:
         """The rows of the table called `name`."""
-        rows: tuple[Row, ...] = getattr(self, name)
+        rows: tuple[TableRow, ...] = getattr(self, name)
         return rows
 
 
-ROW_TYPES: dict[str, type[Row]] = {
+ROW_TYPES: dict[str, type[TableRow]] = {
     "participants": ParticipantRow,
     "rounds": RoundRow,
     "items": ItemRow,
@@ -78,11 +78,11 @@ ROW_TYPES: dict[str, type[Row]] = {
     "phases": PhaseRow,
     "freetext": FreeTextRow,
 }
-"""What a row of each table is."""
+"""The row type of each table."""
 
 
 def combined(sessions: Iterable[Tables]) -> Tables:
-    """The tables of several sessions as one, in the order of the sessions."""
+    """The tables of several sessions joined, in the order of the sessions."""
     every = tuple(sessions)
     joined: dict[str, Any] = {
         name: tuple(row for session in every for row in session.table(name)) for name in ROW_TYPES
@@ -91,10 +91,11 @@ def combined(sessions: Iterable[Tables]) -> Tables:
 
 
 def session_tables(transcript: Transcript, buildings: dict[str, Building] | None = None) -> Tables:
-    """The rows of one session of a study. Practice is left out, but for its check. `buildings`, by
-    their text, spares a caller with many sessions from reading the same building again.
+    """The rows of one session of a study. Practice is left out, except for its check.
 
-    Raises JournalError for a journal that has rounds and no allocation.
+    `buildings`, keyed by their text, are filled as they are met: a caller with many sessions passes
+    the same dict, so that each building is parsed once. Raises JournalError for a journal that has
+    rounds but no allocation.
     """
     return _Session(transcript, {} if buildings is None else buildings).tables()
 
@@ -133,7 +134,7 @@ class _Session:
 
     @property
     def rounds(self) -> Iterator[int]:
-        """The rounds begun."""
+        """The rounds that were started."""
         begun = {step.round for step in self.history.phases}
         return (number for number in ROUNDS if number in begun)
 
@@ -143,7 +144,7 @@ class _Session:
             raise JournalError(
                 f"the session {self.started.session} has rounds but was never allocated",
                 place=self.source,
-                hint="Give the journal of a study, as ana has written it.",
+                hint="Give the journal of a study, unchanged.",
             )
         return self.history.allocated
 
@@ -266,7 +267,7 @@ class _Session:
         )
 
     def answers(self, round_: int, void: bool) -> dict[str, int | None]:
-        """The sliders and statements, and the sum of the statements where all were answered."""
+        """The sliders and statements, and the sum of the statements if all were answered."""
         if void:
             return {}
         named = (*MENTAL_STATES, *LIKERT_ITEMS)
@@ -280,7 +281,7 @@ class _Session:
         return {**values, "preference": total}
 
     def played(self, round_: int, void: bool) -> dict[str, float | int | str | None]:
-        """What the mission of a round adds to its row."""
+        """The columns that the mission of a round adds to its row."""
         mission = self.missions.get(round_)
         if mission is None:
             return {}

@@ -15,7 +15,7 @@ from random import Random
 import pytest
 
 from game.journal import sink as sink_module
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.reader import first_discontinuity, parse_journal, read_journal
 from game.journal.records import Paused, Resumed
 from game.journal.writer import Journal

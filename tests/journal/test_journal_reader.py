@@ -8,7 +8,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.reader import Difference, first_discontinuity, parse_journal, read_journal
 from game.journal.records import SCHEMA_VERSION, PhaseStarted, Resumed, SessionStarted
 from game.journal.writer import Journal

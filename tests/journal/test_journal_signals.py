@@ -13,7 +13,7 @@ import pytest
 
 from game.journal import writer as journal_module
 from game.journal.clock import VirtualClock
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.reader import first_discontinuity, parse_journal
 from game.journal.records import Interruption, Paused, QuizAnswer, Record, Unpaused
 from game.journal.sink import MemorySink

@@ -10,7 +10,7 @@ import pytest
 
 from game.journal import sink as sink_module
 from game.journal.clock import Reading, VirtualClock
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.reader import read_journal
 from game.journal.records import (
     Interruption,

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from game.coach.acts import Level, LevelChanged
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.records import RunRecord
 from game.session import replay as replay_module
 from game.session.playing import assemble

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from game.coach.acts import CoachRecord, InstructionIssued, Level
-from game.journal.failures import JournalError
 from game.journal.history import Step, history_of, read_history
+from game.journal.journal_error import JournalError
 from game.journal.reader import Entry
 from game.journal.records import (
     Allocated,

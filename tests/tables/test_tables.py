@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from game.coach.acts import InstructionIssued, Level, PosteriorEvaluated
 from game.journal.clock import VirtualClock
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript, parse_journal
 from game.journal.records import (
     Allocated,

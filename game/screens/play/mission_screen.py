@@ -17,7 +17,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 
 from game.errors import AnaError
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.screens.play.live import LiveMission
 from game.screens.play.missionview import MissionView
 from game.screens.widgets.dialogs import Help, Notice, Pause, leave_question

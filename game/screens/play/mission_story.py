@@ -1,4 +1,4 @@
-"""What happened in a mission, told from its journal once it is over."""
+"""The story of a mission, taken from its journal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from game.world.settings import MissionSettings
 
 
 class Fate(NamedTuple):
-    """What became of a victim, and when; None for one who still waits."""
+    """What became of a victim, and when; `at_ms` is None if they are still waiting."""
 
     victim: VictimSite
     state: VictimState
@@ -24,10 +24,10 @@ class Fate(NamedTuple):
 
 @dataclass(frozen=True)
 class MissionStory:
-    """A mission as a whole. `path` are the cells walked, the start first; `levels` are 1 to 3.
+    """A mission as a whole. `path` holds the cells walked, the start first; `levels` are 1 to 3.
 
-    `actions` counts what the rescuer did, blocked moves and turns included; `instructions` how
-    often the words on the bar changed; `left` is true where the player went before the end.
+    `actions` counts what the rescuer did, including blocked moves and turns; `instructions` counts
+    how often the words on the bar changed; `left` is true if the player left before the end.
     """
 
     building: Building
@@ -62,7 +62,7 @@ class MissionStory:
 
 
 def coach_name(spec: CoachSpec) -> str:
-    """A coach in a few words, with its level where it keeps one."""
+    """A coach in a few words, with its level if that is fixed."""
     return spec.kind + (f" C{int(spec.level)}" if spec.level is not None else "")
 
 

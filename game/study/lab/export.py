@@ -34,7 +34,7 @@ from game.study.lab.psychds import (
 )
 from game.study.ledger import Ledger, ending_of
 from game.study.study_settings import read_settings
-from game.tables.rows import Row
+from game.tables.rows import TableRow
 from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
 
 DATASET = "dataset.toml"
@@ -126,7 +126,7 @@ def _described(folder: Path, name: str, found: dict[StudyMode, Tables]) -> dict[
     texts["documentation/codebook.md"] = codebook_page(ROW_TYPES)
     texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
     files = {path: text.encode() for path, text in texts.items()}
-    rows: Sequence[type[Row]] = tuple(ROW_TYPES.values())
+    rows: Sequence[type[TableRow]] = tuple(ROW_TYPES.values())
     files[DESCRIPTION] = description(name, _summary(found), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, ITEMS):
         files[f"materials/{material}"] = (folder / material).read_bytes()

@@ -17,8 +17,8 @@ from typing import Any
 
 import msgspec
 
-from game.tables.columns import Column, cells, columns
-from game.tables.rows import Row
+from game.tables.columns import TableColumn, cells, columns
+from game.tables.rows import TableRow
 
 IGNORED = "data/raw/\n"
 IGNORE_FILES = (".psychds-ignore", ".psychdsignore")
@@ -51,21 +51,23 @@ def alphanumeric(words: str) -> str:
     return "".join(part[0].upper() + part[1:] for part in parts) or "study"
 
 
-def table_text(row: type[Row], rows: Iterable[Row]) -> str:
+def table_text(row: type[TableRow], rows: Iterable[TableRow]) -> str:
     """A table as CSV with a header."""
     return _csv([column.name for column in columns(row)], (list(cells(one)) for one in rows))
 
 
-def all_columns(tables: Iterable[type[Row]]) -> dict[str, Column]:
+def all_columns(tables: Iterable[type[TableRow]]) -> dict[str, TableColumn]:
     """The columns of all tables by name, in order of first appearance."""
-    found: dict[str, Column] = {}
+    found: dict[str, TableColumn] = {}
     for row in tables:
         for column in columns(row):
             found.setdefault(column.name, column)
     return found
 
 
-def description(name: str, summary: str, notes: DatasetNotes, tables: Iterable[type[Row]]) -> bytes:
+def description(
+    name: str, summary: str, notes: DatasetNotes, tables: Iterable[type[TableRow]]
+) -> bytes:
     """dataset_description.json; `summary` describes the dataset in a sentence or two."""
     content: dict[str, Any] = {
         "@context": "http://schema.org/",
@@ -83,7 +85,7 @@ def description(name: str, summary: str, notes: DatasetNotes, tables: Iterable[t
     return msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n"
 
 
-def codebook_table(tables: Mapping[str, type[Row]]) -> str:
+def codebook_table(tables: Mapping[str, type[TableRow]]) -> str:
     """The codebook as CSV: one row per table and column."""
     header = ["table", "column", "meaning", "unit", "values", "may_be_empty"]
     return _csv(
@@ -96,7 +98,7 @@ def codebook_table(tables: Mapping[str, type[Row]]) -> str:
     )
 
 
-def codebook_page(tables: Mapping[str, type[Row]]) -> str:
+def codebook_page(tables: Mapping[str, type[TableRow]]) -> str:
     """The codebook as Markdown."""
     parts = [
         "# Codebook\n\nAn empty cell means that there is no value: not asked, not answered or not "
@@ -114,7 +116,7 @@ def codebook_page(tables: Mapping[str, type[Row]]) -> str:
     return "".join(parts)
 
 
-def _variable(column: Column) -> dict[str, str]:
+def _variable(column: TableColumn) -> dict[str, str]:
     variable = {
         "@type": "PropertyValue",
         "name": column.name,

@@ -19,7 +19,7 @@ from analysis.sources.study_folder import read_study_folder
 from analysis.sources.tables_folder import read_tables, write_tables
 from analysis.stats.groups import grouped
 from game.errors import AnaError
-from game.journal.failures import JournalError
+from game.journal.journal_error import JournalError
 from game.tables.exclusions import read_rules
 from game.tables.rejudging import with_prior_mass
 from tests.analysis.simulated import first_of_the_shipped

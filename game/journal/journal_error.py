@@ -1,4 +1,4 @@
-"""What can go wrong with a journal, and how to fix it."""
+"""The error that every problem with a journal raises, with a hint on how to fix it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _FORBIDDEN = frozenset({errno.EACCES, errno.EPERM, errno.EROFS})
 
 
 class JournalError(AnaError):
-    """A journal cannot be written or read; `place` names the file, and the line where known."""
+    """A journal cannot be written or read; `place` is the file, with the line if it is known."""
 
 
 def cannot_write(path: Path, error: OSError) -> JournalError:
