@@ -15,7 +15,7 @@ from game.coach.api import Briefing, Coach
 Choice = Literal["level", "preset"]
 """What may be chosen about a coach: a field of `CoachSpec`, and a keyword of its class."""
 
-Panel = Literal["level", "posterior"]
+Panel = Literal["level", "posterior", "knowledge"]
 """What the panel beside a mission shows of a coach: its level and goal, or P(g*) as well."""
 
 
@@ -44,6 +44,10 @@ _KINDS = (
     CoachKind(
         "pace", "keeps one level, learns the pace", "game.coach.kinds.pace:PaceCoach", ("level",),
         "level",
+    ),
+    CoachKind(
+        "knowledge", "adapts to the rooms you know", "game.coach.kinds.knowledge:KnowledgeCoach",
+        (), "knowledge",
     ),
 )  # fmt: skip
 KINDS = MappingProxyType({kind.name: kind for kind in _KINDS})
