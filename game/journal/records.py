@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 import msgspec
 
 from game.coach.acts import CoachRecord, Level
+from game.coach.knowledge.assumed import Assumed
 from game.coach.presets import Preset
 from game.coach.spec import CoachSpec
 from game.world.events import MissionEvent
@@ -132,7 +133,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     """Everything that determines a mission but the actions.
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
-    coach's preset as it was then, None for a coach without one.
+    coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
+    one that judges what the rescuer knows.
     """
 
     building: str
@@ -143,6 +145,7 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     settings: MissionSettings
     seed: int
     rules_version: int
+    assumed: Assumed | None = None
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

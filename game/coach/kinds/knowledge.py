@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import inf
 
 from game.coach.acts import ChoiceReason, CoachRecord, KnowledgeJudged, Level, LevelChanged
 from game.coach.api import Briefing
 from game.coach.cycle import Alpha
 from game.coach.guide import Guide, Occasion
 from game.coach.instructions import Pose, Scene
-from game.coach.knowledge.assumptions import ASSUMPTIONS, Assumptions
+from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizAnswer
 from game.coach.knowledge.learner import KnowledgeLearner
-from game.coach.knowledge.rooms import QuizAnswer
 from game.coach.knowledge.times import LED, LegTimes, Ways
 from game.coach.model import Component, HumanModel, KnownRooms, Reward
 from game.world.geometry import Cell
@@ -46,8 +46,8 @@ class Choice:
 class SoonestLevel:
     """The influence process: from what is known, the level with the least expected time."""
 
-    def __init__(self, assumptions: Assumptions, times: LegTimes, ways: Ways) -> None:
-        self._assumptions = assumptions
+    def __init__(self, assumed: Assumed, times: LegTimes, ways: Ways) -> None:
+        self._assumed = assumed
         self._times = times
         self._ways = ways
 
@@ -79,18 +79,16 @@ class SoonestLevel:
         if at_c3 is not None:
             expected_ms[Level.C3] = at_c3
         best = _least(expected_ms)
-        stays_ms = expected_ms.get(state.level)
-        gain_ms = self._assumptions.switch_gain_ms
-        if best is not state.level and stays_ms is not None:
-            if round(stays_ms - expected_ms[best], DECIMALS) <= gain_ms:
-                return Choice(state.level, moment, expected_ms, "stays")
+        gain_ms = round(expected_ms.get(state.level, inf) - expected_ms[best], DECIMALS)
+        if best is not state.level and gain_ms <= self._assumed.switch_gain_ms:
+            return Choice(state.level, moment, expected_ms, "stays")
         return Choice(best, moment, expected_ms, "soonest")
 
     def _in_doubt(
         self, state: Choice, moment: Moment, known: KnownRooms, led_ms: dict[Level, float]
     ) -> Choice:
         """In mid-leg at C3: whether to help somebody who may not know the way, now or later."""
-        assumed, room = self._assumptions, moment.scene.room(moment.goal)
+        assumed, room = self._assumed, moment.scene.room(moment.goal)
         assert room is not None
         chance, best_ms = known.by_room[room.name], min(led_ms.values())
         rest_ms = self._times.walk(moment.scene, moment.pose, moment.goal)
@@ -109,7 +107,7 @@ class SoonestLevel:
     ) -> float | None:
         """Expected time at C3; None where the goal lies in no room. Not knowing the room costs the
         lesser of searching for it and of being led once it shows."""
-        assumed, (scene, pose) = self._assumptions, (moment.scene, moment.pose)
+        assumed, (scene, pose) = self._assumed, (moment.scene, moment.pose)
         room = scene.room(moment.goal)
         if room is None:
             return None
@@ -129,12 +127,12 @@ class KnowledgeCoach(Guide[Choice]):
     walks to a room by its name, and does not seem to know it, at each step."""
 
     def __init__(self, briefing: Briefing, quiz: Mapping[str, QuizAnswer] | None = None) -> None:
-        assumed = ASSUMPTIONS
+        assumed = ASSUMED
         self._learner = learner = KnowledgeLearner(briefing, assumed, quiz)
         influence = SoonestLevel(assumed, learner.times, learner.ways)
         super().__init__(briefing, learner, influence, Choice(assumed.first_level))
         self.cycle.model = replace(self.cycle.model, reward=Reward(assumed.rationality))
-        self._assumptions = assumed
+        self._assumed = assumed
 
     @property
     def level(self) -> Level:
@@ -172,7 +170,7 @@ class KnowledgeCoach(Guide[Choice]):
                 return self.level is not Level.C1
             case "step":
                 doubt = self._learner.doubt if self.level is Level.C3 and self.bar.open else None
-                return doubt is not None and doubt <= self._assumptions.doubt_below
+                return doubt is not None and doubt <= self._assumed.doubt_below
         return False
 
 

@@ -11,8 +11,8 @@ from game.coach.api import Briefing
 from game.coach.bar import OnBar
 from game.coach.cycle import Alpha
 from game.coach.instructions import Pose, Scene
-from game.coach.knowledge.assumptions import Assumptions
-from game.coach.knowledge.rooms import QuizAnswer, RoomKnowledge, Steps, Walk
+from game.coach.knowledge.assumed import Assumed, QuizAnswer
+from game.coach.knowledge.rooms import RoomKnowledge, Steps, Walk
 from game.coach.knowledge.times import LED, LegTimes, Ways, first_words
 from game.coach.model import Component, HumanModel, Learned
 from game.world.events import Acted, Action, MissionEvent, Outcome, TreatmentStarted
@@ -48,17 +48,17 @@ class KnowledgeLearner:
     def __init__(
         self,
         briefing: Briefing,
-        assumptions: Assumptions,
+        assumed: Assumed,
         quiz: Mapping[str, QuizAnswer] | None = None,
     ) -> None:
         building = briefing.building
         places = {room.name: room.label for room in building.rooms}
-        self.rooms = RoomKnowledge(assumptions, places, quiz)
-        self.ways = Ways(assumptions)
-        self.times = LegTimes(assumptions, self.ways)
-        self._assumptions = assumptions
+        self.rooms = RoomKnowledge(assumed, places, quiz)
+        self.ways = Ways(assumed)
+        self.times = LegTimes(assumed, self.ways)
+        self._assumed = assumed
         self._turns_need_a_key = briefing.settings.controls == "turn"
-        self._steps = Steps.of(building.terrain, places, assumptions.rationality)
+        self._steps = Steps.of(building.terrain, places, assumed.rationality)
         self._walk: Walk | None = None
         self._leg: _Leg | None = None
         self._shown: OnBar | None = None
@@ -126,7 +126,7 @@ class KnowledgeLearner:
         """The rescuer has not come nearer for too long, perhaps without any action at all."""
         self._on_bar(shown)
         if self._walk is not None:
-            self._walk.add(-self._assumptions.lost_evidence)
+            self._walk.add(-self._assumed.lost_evidence)
 
     def _arrived(self, victim: str, at_ms: int) -> None:
         self._settle()
@@ -154,7 +154,7 @@ class KnowledgeLearner:
         elif self._walk is None or self._walk.room != room:
             self._settle()
             start = instruction.start.cell
-            self._walk = Walk(self._assumptions, self._steps, room, start, self.rooms.seen)
+            self._walk = Walk(self._assumed, self._steps, room, start, self.rooms.seen)
 
     def _settle(self) -> None:
         """What the walk has said is kept."""

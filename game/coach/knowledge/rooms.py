@@ -9,17 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from math import exp, log, sqrt
-from typing import Literal
 
-from game.coach.knowledge.assumptions import Assumptions
+from game.coach.knowledge.assumed import Assumed, QuizAnswer
 from game.coach.model import KnownRooms
 from game.coach.policy import steps_to
 from game.world.floodfill import Floodfills
 from game.world.geometry import Cell
 from game.world.terrain import Terrain
-
-QuizAnswer = Literal["right", "wrong", "blank"]
-"""How the rescuer labelled a room after memorising the map."""
 
 MOST_LOG_ODDS = 30.0
 """Beyond this the last bits of exp() would decide."""
@@ -35,18 +31,18 @@ class RoomKnowledge:
 
     def __init__(
         self,
-        assumptions: Assumptions,
+        assumed: Assumed,
         rooms: Iterable[str],
         quiz: Mapping[str, QuizAnswer] | None = None,
     ) -> None:
-        self._assumptions = assumptions
-        points, (a, b) = assumptions.share_points, assumptions.share_prior
+        self._assumed = assumed
+        points, (a, b) = assumed.share_points, assumed.share_prior
         self._shares = [(point + 0.5) / points for point in range(points)]
         self._log_prior = [(a - 1) * log(t) + (b - 1) * log(1 - t) for t in self._shares]
         self.memorised = dict.fromkeys(rooms, 0.0)
         if quiz is not None:
             for room, answer in quiz.items():
-                self.memorised[room] = log_odds(assumptions, answer)
+                self.memorised[room] = log_odds(assumed, answer)
         self.learned = dict.fromkeys(self.memorised, 0.0)
         self.seen: frozenset[str] = frozenset()
         self._weigh()
@@ -72,7 +68,7 @@ class RoomKnowledge:
             for weight, share in zip(self._weights, self._shares, strict=True)
         )
         if seen:
-            chance += (1 - chance) * self._assumptions.retention
+            chance += (1 - chance) * self._assumed.retention
             odds = _odds(self.learned[room] + walk)
             chance = chance * odds / (chance * odds + 1 - chance)
         return chance
@@ -156,12 +152,12 @@ class Walk:
     """
 
     def __init__(
-        self, assumptions: Assumptions, steps: Steps, room: str, start: Cell, seen: frozenset[str]
+        self, assumed: Assumed, steps: Steps, room: str, start: Cell, seen: frozenset[str]
     ) -> None:
         self.room = room
         self.seen = room in seen
         self.evidence = 0.0
-        self._assumptions = assumptions
+        self._assumed = assumed
         self._steps = steps
         self._position = start
         self._open = [name for name in steps.places if name == room or name not in seen]
@@ -172,7 +168,7 @@ class Walk:
         start, room = self._position, self.room
         if position == start:
             return
-        guesses, change = self._guesses(start), self._assumptions.retarget
+        guesses, change = self._guesses(start), self._assumed.retarget
         self._open = [name for name in self._open if name == room or name not in seen]
         joint = {
             name: ((1 - change) * self._minds[name] + change * guesses[name])
@@ -186,30 +182,30 @@ class Walk:
 
     def paced(self, ratio: float) -> None:
         """A step took `ratio` times as long as this person's usual one: searchers are slower."""
-        assumed = self._assumptions
+        assumed = self._assumed
         slow, spread = log(assumed.searching_pace), assumed.pace_sd
         evidence = ((log(ratio) - slow) ** 2 - log(ratio) ** 2) / (2 * spread**2)
         self.add(max(-assumed.pace_limit, min(assumed.pace_limit, evidence)))
 
     def add(self, evidence: float) -> None:
         """Take in evidence, in log odds, that the walker knows the way."""
-        limit = self._assumptions.walk_limit
+        limit = self._assumed.walk_limit
         self.evidence = max(-limit, min(limit, self.evidence + evidence))
 
     def _guesses(self, cell: Cell) -> dict[str, float]:
         """Where a searcher at `cell` thinks of looking."""
-        reach = self._assumptions.reach_cells
+        reach = self._assumed.reach_cells
         weights = {name: exp(-self._steps.distance(name, cell) / reach) for name in self._open}
         total = sum(weights.values())
         return {name: weight / total for name, weight in weights.items()}
 
 
-def log_odds(assumptions: Assumptions, answer: QuizAnswer) -> float:
+def log_odds(assumed: Assumed, answer: QuizAnswer) -> float:
     """What an answer in the label quiz says about the room, in log odds."""
     known, unknown = {
-        "right": assumptions.quiz_right,
-        "wrong": assumptions.quiz_wrong,
-        "blank": assumptions.quiz_blank,
+        "right": assumed.quiz_right,
+        "wrong": assumed.quiz_wrong,
+        "blank": assumed.quiz_blank,
     }[answer]
     return log(known / unknown)
 

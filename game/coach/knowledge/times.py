@@ -16,7 +16,7 @@ from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene, instruct
 from game.coach.instructions.course import MOST_INSTRUCTIONS
 from game.coach.instructions.text import render
-from game.coach.knowledge.assumptions import Assumptions
+from game.coach.knowledge.assumed import Assumed
 
 LED = (Level.C1, Level.C2)
 """The levels at which the rescuer is led all the way, whatever they know."""
@@ -49,15 +49,13 @@ class Estimate:
 class Ways:
     """This person's ways: how fast they step, read and think, and search for a room."""
 
-    def __init__(self, assumptions: Assumptions) -> None:
-        self._assumptions = assumptions
-        self._steps = deque([assumptions.step_ms] * FIRST_STEPS, maxlen=LAST_STEPS)
-        self._slowness = Estimate.around(0.0, assumptions.slowness_sd)
-        means = zip(Level, assumptions.factor_means, strict=True)
-        self._factors = {
-            level: Estimate.around(mean, assumptions.factor_sd) for level, mean in means
-        }
-        self._search = Estimate.around(assumptions.search_ms, assumptions.search_sd)
+    def __init__(self, assumed: Assumed) -> None:
+        self._assumed = assumed
+        self._steps = deque([assumed.step_ms] * FIRST_STEPS, maxlen=LAST_STEPS)
+        self._slowness = Estimate.around(0.0, assumed.slowness_sd)
+        means = zip(Level, assumed.factor_means, strict=True)
+        self._factors = {level: Estimate.around(mean, assumed.factor_sd) for level, mean in means}
+        self._search = Estimate.around(assumed.search_ms, assumed.search_sd)
 
     @property
     def step_ms(self) -> float:
@@ -84,7 +82,7 @@ class Ways:
 
     def answered(self, ms: int, expected_ms: float) -> None:
         """The first key after new words came after `ms`; `expected_ms` at usual slowness."""
-        assumed = self._assumptions
+        assumed = self._assumed
         ratio = _clipped(log(ms / expected_ms), 1.5)
         learned = self._slowness.after(ratio, assumed.slowness_noise)
         self._slowness = learned.at_most(assumed.slowness_most / assumed.slowness_noise**2)
@@ -92,14 +90,12 @@ class Ways:
     def took(self, level: Level, ms: int, expected_ms: float, weight: float = 1.0) -> None:
         """A leg at `level` took `ms`; `expected_ms` without the factor of the level."""
         ratio = _clipped(log(ms / expected_ms), 1.0)
-        self._factors[level] = self._factors[level].after(
-            ratio, self._assumptions.factor_noise, weight
-        )
+        self._factors[level] = self._factors[level].after(ratio, self._assumed.factor_noise, weight)
 
     def searched(self, ms: float, weight: float) -> None:
         """Finding a room took `ms` longer than walking there; `weight`: P(it was not known)."""
         value = max(-3_000.0, min(16_000.0, ms))
-        self._search = self._search.after(value, self._assumptions.search_noise, weight)
+        self._search = self._search.after(value, self._assumed.search_noise, weight)
 
 
 class _Sentence(NamedTuple):
@@ -126,8 +122,8 @@ class LegTimes:
     change meanwhile.
     """
 
-    def __init__(self, assumptions: Assumptions, ways: Ways) -> None:
-        self._assumptions = assumptions
+    def __init__(self, assumed: Assumed, ways: Ways) -> None:
+        self._assumed = assumed
         self._ways = ways
         self._scene: Scene | None = None
         self._goal = ""
@@ -157,12 +153,12 @@ class LegTimes:
         room = scene.room(goal)
         inside = room is not None and scene.building.room_at(pose.cell) is room
         reading = self.reading(4 if inside else 5)
-        return self.walk(scene, pose, goal) + reading + self._assumptions.look_ms
+        return self.walk(scene, pose, goal) + reading + self._assumed.look_ms
 
     def walk(self, scene: Scene, pose: Pose, goal: str) -> float:
         """The rest of the way at C3 for somebody who knows it and has read."""
         distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)
-        return max(0, distance - 1) * self._ways.step_ms * self._assumptions.detour
+        return max(0, distance - 1) * self._ways.step_ms * self._assumed.detour
 
     def reading(self, words: int) -> float:
         """To read so many words."""
@@ -170,11 +166,11 @@ class LegTimes:
 
     def usual_reading(self, words: int) -> float:
         """The same at usual slowness."""
-        return self._assumptions.react_ms + self._assumptions.word_ms * words
+        return self._assumed.react_ms + self._assumed.word_ms * words
 
     def _carried_out(self, part: _Part, unknowing: float) -> float:
         """To read and carry out an instruction: the next sentence is read while walking."""
-        assumed, slowness, step_ms = self._assumptions, self._ways.slowness, self._ways.step_ms
+        assumed, slowness, step_ms = self._assumed, self._ways.slowness, self._ways.step_ms
         read, done = assumed.react_ms * slowness, 0.0
         for number, sentence in enumerate(part.sentences):
             read += assumed.word_ms * slowness * sentence.words

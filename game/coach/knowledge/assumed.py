@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import msgspec
 
 from game.coach.acts import Level
 
+QuizAnswer = Literal["right", "wrong", "blank"]
+"""How the rescuer labelled a room after memorising the map."""
 
-class Assumptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+
+class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Times are milliseconds, distances cells.
 
     Where a reason says `chosen`, the number is the one with which simulated people that were set
@@ -29,7 +34,7 @@ class Assumptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     reach_cells: float = 12.0
     """How far off searchers look: a place twice as far is e times less likely (judgement)."""
     walk_limit: float = 12.0
-    """No walk says more than this about a room, in log odds: the model of walks is not that good."""
+    """No walk says more than this about a room, in log odds: the model of walks is too simple."""
     retention: float = 0.75
     """Chance that a name that came into view is remembered with its place (judgement)."""
     searching_pace: float = 1.5
@@ -100,6 +105,8 @@ class Assumptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     optimism: float = 0.6
     """How many standard deviations of the share are added to P known when a goal is chosen for: the
     value of learning what the person knows (chosen)."""
+    belief_optimism: float = 1.2
+    """The same for the preset `belief`: just enough for the first goal to be told at C3."""
     switch_gain_ms: float = 1_200.0
     """Another level must save so much: switching costs attention (chosen: fewer switches, no fewer
     rescues)."""
@@ -113,4 +120,4 @@ class Assumptions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     """Helping in mid-leg must save so much."""
 
 
-ASSUMPTIONS = Assumptions()
+ASSUMED = Assumed()
