@@ -182,7 +182,6 @@ BELIEF = Preset(
     aggregation="room",
     evaluate="goal",
     rule="absolute",
-    first_level=Level.C3,
 )
 """The paper's thresholds, applied to what the rescuer is held to know of the goal's room, with a
 bonus for uncertainty (`game.coach.knowledge.assumed`)."""

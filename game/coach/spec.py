@@ -9,7 +9,7 @@ import msgspec
 
 from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
-from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizAnswer
+from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizMark
 from game.coach.own import SEPARATOR, own_coach, source_hash
 from game.coach.presets import PRESETS, preset
 from game.coach.registry import KINDS, Choice
@@ -51,7 +51,7 @@ class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     kind: str
     level: Level | None = None
     preset: str | None = None
-    quiz: dict[str, QuizAnswer] | None = None
+    quiz: dict[str, QuizMark] | None = None
     yoke: Yoke | None = None
     source: str | None = None
     sha256: str | None = None
@@ -78,7 +78,7 @@ def parse_coach(
     kind: str,
     level: int | None = None,
     preset: str | None = None,
-    quiz: dict[str, QuizAnswer] | None = None,
+    quiz: dict[str, QuizMark] | None = None,
     yoke: Yoke | None = None,
 ) -> CoachSpec:
     """The coach that these names mean, with the usual level or preset where none is given.

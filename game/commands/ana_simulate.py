@@ -12,6 +12,7 @@ from game.coach.spec import DEFAULT_PRESET
 from game.rescuers.person import POPULATIONS
 from game.simulation.simulated_study import Workers, simulate
 from game.simulation.workers import cores, here, on_cluster, on_cores
+from game.study.study_settings import ADAPTIVE
 
 
 @click.command(name="simulate")
@@ -28,9 +29,15 @@ from game.simulation.workers import cores, here, on_cluster, on_cores
     help="What kind of people take part.",
 )
 @click.option(
+    "--coach",
+    metavar="KIND",
+    help="The adaptive instructor of a new study: as in ana play, or knowledge+quiz.  "
+    f"[default: {ADAPTIVE}]",
+)
+@click.option(
     "--preset",
     type=click.Choice(list(PRESETS)),
-    help=f"How the adaptive instructor of a new study adapts.  [default: {DEFAULT_PRESET}]",
+    help=f"How ana adapts in a new study.  [default: {DEFAULT_PRESET}]",
 )
 def command(
     folder: Path,
@@ -39,6 +46,7 @@ def command(
     jobs: int | None,
     scheduler: str | None,
     population: str,
+    coach: str | None,
     preset: str | None,
 ) -> None:
     """Let N simulated people take part in the study DIR, which is made where it is new.
@@ -47,7 +55,7 @@ def command(
     for the same seed, whoever computes them. Run it again to go on after an interruption.
     """
     workers = _workers(jobs, scheduler)
-    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset)
+    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset, coach)
     before = next(progress)
     with click.progressbar(length=participants, label="Simulating", show_pos=True) as bar:
         bar.update(before)

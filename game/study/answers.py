@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from game.coach.knowledge.assumed import QuizMark
 from game.journal.records import PreferenceGiven, QuestionnaireAnswer, QuizAnswer, Record
 from game.study.protocol import Step
+from game.world.building import Building
 from game.world.events import Rescued
 
 
@@ -18,6 +20,11 @@ class Answers:
     labels: dict[Step, dict[str, str]] = field(default_factory=dict)
     preference: PreferenceGiven | None = None
     legs: int = 0
+
+    def marks(self, building: Building, round_: int) -> dict[str, QuizMark]:
+        """How the rooms of `building` were labelled in a round."""
+        labels = self.labels.get(Step("label", round_), {})
+        return {room.name: _mark(room.name, labels.get(room.name)) for room in building.rooms}
 
     def note(self, step: Step, record: Record) -> None:
         """Take account of one record."""
@@ -34,3 +41,7 @@ class Answers:
                 self.legs += 1
             case _:
                 pass
+
+
+def _mark(room: str, label: str | None) -> QuizMark:
+    return "blank" if label is None else "right" if label == room else "wrong"

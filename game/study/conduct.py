@@ -11,7 +11,8 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Literal, Protocol
 
-from game.coach.spec import CoachSpec
+from game.coach.knowledge.assumed import QuizMark
+from game.coach.spec import CoachSpec, coach_given
 from game.journal.records import (
     Allocated,
     Consented,
@@ -30,7 +31,7 @@ from game.study.ledger import NoPlace
 from game.study.practice import Leg, leg_building, leg_settings, leg_start, legs
 from game.study.protocol import ROUNDS, Point, Step, next_point
 from game.study.study_session import StudySession
-from game.study.study_settings import ScreenSize
+from game.study.study_settings import ScreenSize, StudySettings
 from game.study.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
 from game.world.building import Building, Severity
@@ -247,7 +248,8 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     )
     await who.read(page)
     await _start(session, step, rules.duration_ms)
-    spec = instructor(await _allocated(session), step.round, study.settings.preset)
+    quiz = session.answers.marks(building, step.round)
+    spec = instructor(await _allocated(session), step.round, study.settings, quiz)
     task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
     assert task.run is not None
@@ -322,10 +324,14 @@ _PHASES: dict[Phase, Callable[[StudySession, Participant, Step, int], Awaitable[
 }
 
 
-def instructor(allocated: Allocated, round_: int, preset: str) -> CoachSpec:
-    """Who coaches a round."""
+def instructor(
+    allocated: Allocated, round_: int, settings: StudySettings, quiz: dict[str, QuizMark]
+) -> CoachSpec:
+    """Who coaches a round. Only a coach that asks for the round's label quiz is given it."""
     if allocated.adaptive_first is (round_ == ROUNDS[0]):
-        return CoachSpec("ana", preset=preset)
+        return coach_given(
+            settings.coach, level=allocated.static_level, preset=settings.preset, quiz=quiz
+        )
     return CoachSpec("static", level=allocated.static_level)
 
 

@@ -30,7 +30,13 @@ from game.study.ledger import (
     agreement,
     utc_now,
 )
-from game.study.study_settings import ScreenSize, SettingsError, StudySettings, read_settings
+from game.study.study_settings import (
+    ADAPTIVE,
+    ScreenSize,
+    SettingsError,
+    StudySettings,
+    read_settings,
+)
 from game.study.texts import Items, Texts, read_items, read_texts
 from game.world import load_building
 from game.world.building import Building
@@ -99,11 +105,13 @@ def new_study(
     seed: int | None = None,
     blocks: int = 5,
     preset: str = DEFAULT_PRESET,
+    coach: str = ADAPTIVE,
     now: Callable[[], str] = utc_now,
 ) -> None:
     """Make a study folder with the default settings and texts, to be edited.
 
-    `preset` is how the adaptive instructor adapts; `now` gives the time of the creation.
+    `coach` is the adaptive instructor, and `preset` how it adapts; `now` gives the time of the
+    creation.
 
     Raises StudyError for a folder that holds something already, or cannot be made.
     """
@@ -118,7 +126,8 @@ def new_study(
         for name in (SETTINGS, TEXTS, ITEMS):
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
-                text = text.format(seed=seed, blocks=blocks, preset=preset, **_BUILDINGS)
+                chosen = {"preset": preset, "coach": coach}
+                text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
             path = folder / name
             path.touch(mode=0o600)
             path.write_text(text, encoding="utf-8")

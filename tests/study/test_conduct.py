@@ -130,7 +130,7 @@ def test_the_design_cell_is_carried_out(finished: Study) -> None:
     assert tuple(start.building for start in begun) == tuple(
         finished.building(name).name for name in allocated.buildings
     )
-    specs = [instructor(allocated, number, finished.settings.preset) for number in (1, 2)]
+    specs = [instructor(allocated, number, finished.settings, {}) for number in (1, 2)]
     assert [start.coach for start in begun] == specs
     assert {spec.kind for spec in specs} == {"ana", "static"}
     assert specs[0].kind == ("ana" if taken.cell.adaptive_first else "static")

@@ -10,7 +10,7 @@ from game.coach.api import Briefing
 from game.coach.cycle import Alpha
 from game.coach.guide import Guide, Occasion
 from game.coach.instructions import Pose
-from game.coach.kinds.knowledge import Choice, Moment, hopeful, judged
+from game.coach.kinds.knowledge import DecisionPoint, LevelChoice, hopeful, judged
 from game.coach.knowledge.assumed import ASSUMED, Assumed
 from game.coach.knowledge.learner import KnowledgeLearner
 from game.coach.levels import verdict
@@ -30,28 +30,28 @@ class BeliefThresholds:
     preset: Preset
     assumed: Assumed
 
-    def act(self, state: Choice, model: HumanModel, alpha: Alpha) -> Choice:
-        known, moment = model.belief.known, state.moment
-        if Component.BELIEF not in alpha or known is None or moment is None:
+    def act(self, state: LevelChoice, model: HumanModel, alpha: Alpha) -> LevelChoice:
+        known, point = model.belief.known, state.point
+        if Component.BELIEF not in alpha or known is None or point is None:
             return state
-        room = moment.scene.room(moment.goal)
+        room = point.scene.room(point.goal)
         if room is None:
             return state
         chance = known.by_room[room.name]
-        if moment.occasion == "goal":
+        if point.occasion == "goal":
             chance = hopeful(chance, known.share_sd, self.assumed.belief_optimism)
         said = verdict(chance, self.preset.lower_below, self.preset.raise_above)
         return replace(state, level=_LEVELS[said])
 
 
-class AnaByBelief(Guide[Choice]):
+class AnaByBelief(Guide[LevelChoice]):
     """Chooses the level of each goal, and again for a rescuer who is lost, by what `knowledge`
     learns."""
 
     def __init__(self, briefing: Briefing, preset: Preset) -> None:
         self._learner = KnowledgeLearner(briefing, ASSUMED)
         influence = BeliefThresholds(preset, ASSUMED)
-        super().__init__(briefing, self._learner, influence, Choice(preset.first_level))
+        super().__init__(briefing, self._learner, influence, LevelChoice(preset.first_level))
 
     @property
     def level(self) -> Level:
@@ -67,8 +67,8 @@ class AnaByBelief(Guide[Choice]):
             self._learner.lost(self.bar.shown)
         before, model = self.level, self.cycle.evaluate()
         why: ChoiceReason = "lost" if occasion == "lost" else "soonest"
-        moment = Moment(occasion, self.lead.scene, pose, goal)
-        self.state = self.cycle.adapt(Choice(before, moment, why=why))
+        point = DecisionPoint(occasion, self.lead.scene, pose, goal)
+        self.state = self.cycle.adapt(LevelChoice(before, point, why=why))
         records: list[CoachRecord] = [judged(at_ms, self.state, model)]
         if self.level is not before and self.bar.shown is not None:
             records.append(LevelChanged(at_ms, before, self.level))

@@ -8,7 +8,7 @@ import msgspec
 
 from game.coach.acts import Level
 
-QuizAnswer = Literal["right", "wrong", "blank"]
+QuizMark = Literal["right", "wrong", "blank"]
 """How the rescuer labelled a room after memorising the map."""
 
 

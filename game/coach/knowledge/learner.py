@@ -1,5 +1,5 @@
 """The learning process of `knowledge`: which rooms are known, from walks at C3, and the
-person's ways."""
+person's habits."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from game.coach.api import Briefing
 from game.coach.bar import OnBar
 from game.coach.cycle import Alpha
 from game.coach.instructions import Pose, Scene
-from game.coach.knowledge.assumed import Assumed, QuizAnswer
-from game.coach.knowledge.rooms import RoomKnowledge, Steps, Walk
-from game.coach.knowledge.times import LED, LegTimes, Ways, first_words
+from game.coach.knowledge.assumed import Assumed, QuizMark
+from game.coach.knowledge.rooms import RoomKnowledge, StepChances, Walk
+from game.coach.knowledge.times import LED, Habits, LegTimes, first_words
 from game.coach.model import Component, HumanModel, Learned
 from game.world.events import Acted, Action, MissionEvent, Outcome, TreatmentStarted
 from game.world.geometry import Cell
@@ -21,7 +21,7 @@ from game.world.observation import Observation
 
 
 @dataclass
-class _Leg:
+class _OpenLeg:
     """A leg as it was planned at `at_ms`: with `level`, expected to take `plain_ms` without the
     factor of the level, and `known_ms` at C3 for somebody who knows the way. `changed` is whether
     another level came in between, `unknown` P(the room was not known) by the walks of the leg."""
@@ -40,7 +40,7 @@ class KnowledgeLearner:
 
     Only walks after "Go to r", and only until the name of r is in view, say anything about what is
     known: led at C1 or C2 people do equally well whatever they know (paper 5.1.3: pi(C1, b) =
-    pi(C1)). `ways` and `times` hold how fast this person is.
+    pi(C1)). `habits` and `times` hold how fast this person is.
     """
 
     alpha: Alpha = frozenset({Component.BELIEF})
@@ -49,18 +49,18 @@ class KnowledgeLearner:
         self,
         briefing: Briefing,
         assumed: Assumed,
-        quiz: Mapping[str, QuizAnswer] | None = None,
+        quiz: Mapping[str, QuizMark] | None = None,
     ) -> None:
         building = briefing.building
         places = {room.name: room.label for room in building.rooms}
         self.rooms = RoomKnowledge(assumed, places, quiz)
-        self.ways = Ways(assumed)
-        self.times = LegTimes(assumed, self.ways)
+        self.habits = Habits(assumed)
+        self.times = LegTimes(assumed, self.habits)
         self._assumed = assumed
         self._turns_need_a_key = briefing.settings.controls == "turn"
-        self._steps = Steps.of(building.terrain, places, assumed.rationality)
+        self._steps = StepChances.of(building.terrain, places, assumed.rationality)
         self._walk: Walk | None = None
-        self._leg: _Leg | None = None
+        self._leg: _OpenLeg | None = None
         self._shown: OnBar | None = None
         self._unread = False
         self._in_view: frozenset[str] = frozenset()
@@ -104,7 +104,7 @@ class KnowledgeLearner:
             plain_ms = self.times.led_plain(scene, pose, goal, level, self.rooms.share)
         else:
             plain_ms = self.times.known_plain(scene, pose, goal)
-        self._leg = _Leg(goal, at_ms, level, plain_ms, known_ms)
+        self._leg = _OpenLeg(goal, at_ms, level, plain_ms, known_ms)
 
     def goal_given_up(self) -> None:
         """The walk to the last goal is over."""
@@ -119,7 +119,7 @@ class KnowledgeLearner:
             return
         if walk is not None and leg.level is Level.C3 and not leg.changed:
             spent_ms = at_ms - leg.at_ms + rest_ms - leg.known_ms
-            self.ways.searched(spent_ms + self.ways.search_ms, 1 - self._known(walk))
+            self.habits.searched(spent_ms + self.habits.search_ms, 1 - self._known(walk))
         leg.changed = True
 
     def lost(self, shown: OnBar) -> None:
@@ -135,10 +135,10 @@ class KnowledgeLearner:
             return
         ms = at_ms - leg.at_ms
         if leg.level in LED:
-            self.ways.took(leg.level, ms, leg.plain_ms)
+            self.habits.took(leg.level, ms, leg.plain_ms)
         elif leg.unknown is not None:
-            self.ways.took(leg.level, ms, leg.plain_ms, 1 - leg.unknown)
-            self.ways.searched(ms - leg.known_ms, leg.unknown)
+            self.habits.took(leg.level, ms, leg.plain_ms, 1 - leg.unknown)
+            self.habits.searched(ms - leg.known_ms, leg.unknown)
 
     # --- walks -----------------------------------------------------------------------------------
 
@@ -184,15 +184,15 @@ class KnowledgeLearner:
             words = first_words(
                 shown.instruction, shown.notice, turns_need_a_key=self._turns_need_a_key
             )
-            self.ways.answered(ms, self.times.usual_reading(words))
+            self.habits.answered(ms, self.times.usual_reading(words))
 
     def _moved(self, event: Acted, position: Cell) -> None:
         """A step; one with the same key as the step before tells the pace."""
         ratio = None
         if self._before is not None and self._before[0] is event.action:
             ms = event.at_ms - self._before[1]
-            self.ways.stepped(ms)
-            ratio = ms / self.ways.step_ms
+            self.habits.stepped(ms)
+            ratio = ms / self.habits.step_ms
         self._before = event.action, event.at_ms
         walk = self._walk
         if walk is not None and walk.room not in self._in_view:

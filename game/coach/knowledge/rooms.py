@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from math import exp, log, sqrt
 
-from game.coach.knowledge.assumed import Assumed, QuizAnswer
+from game.coach.knowledge.assumed import Assumed, QuizMark
 from game.coach.model import KnownRooms
 from game.coach.policy import steps_to
 from game.world.floodfill import Floodfills
@@ -33,7 +33,7 @@ class RoomKnowledge:
         self,
         assumed: Assumed,
         rooms: Iterable[str],
-        quiz: Mapping[str, QuizAnswer] | None = None,
+        quiz: Mapping[str, QuizMark] | None = None,
     ) -> None:
         self._assumed = assumed
         points, (a, b) = assumed.share_points, assumed.share_prior
@@ -99,7 +99,7 @@ Places = Mapping[str, Cell]
 """Where rooms are, by name: their label cells."""
 
 
-class Steps:
+class StepChances:
     """How well steps in one building fit a walk to a place, by the policy of the human model.
 
     Of two steps that lead equally near the one that was taken tells nothing about knowledge, so a
@@ -113,7 +113,7 @@ class Steps:
         self._nearer: dict[tuple[str, Cell], float] = {}
 
     @classmethod
-    def of(cls, terrain: Terrain, places: Places, rationality: float) -> Steps:
+    def of(cls, terrain: Terrain, places: Places, rationality: float) -> StepChances:
         """The one of a building, shared by all who ask."""
         key = "steps to rooms", tuple(places.items()), rationality
         return terrain.shared(key, lambda: cls(terrain.floodfills, places, rationality))
@@ -152,7 +152,7 @@ class Walk:
     """
 
     def __init__(
-        self, assumed: Assumed, steps: Steps, room: str, start: Cell, seen: frozenset[str]
+        self, assumed: Assumed, steps: StepChances, room: str, start: Cell, seen: frozenset[str]
     ) -> None:
         self.room = room
         self.seen = room in seen
@@ -200,7 +200,7 @@ class Walk:
         return {name: weight / total for name, weight in weights.items()}
 
 
-def log_odds(assumed: Assumed, answer: QuizAnswer) -> float:
+def log_odds(assumed: Assumed, answer: QuizMark) -> float:
     """What an answer in the label quiz says about the room, in log odds."""
     known, unknown = {
         "right": assumed.quiz_right,

@@ -1,4 +1,4 @@
-"""How long a leg will take this rescuer at each level, and what is learned of their ways.
+"""How long a leg will take this rescuer at each level, and what is learned of their habits.
 
 A leg runs from where the rescuer stands to the treatment of the goal. At C1 and C2 the rescuer is
 led along a course; at C3 the way is known or has to be looked for. Times are milliseconds.
@@ -46,8 +46,8 @@ class Estimate:
         return Estimate(self.mean, min(self.precision, precision))
 
 
-class Ways:
-    """This person's ways: how fast they step, read and think, and search for a room."""
+class Habits:
+    """This person's habits: how fast they step, read and think, and search for a room."""
 
     def __init__(self, assumed: Assumed) -> None:
         self._assumed = assumed
@@ -116,22 +116,22 @@ class _Part(NamedTuple):
 
 
 class LegTimes:
-    """Expected times from a pose to the treatment of a goal, for the person whose `ways` are known.
+    """Expected times from a pose to the treatment of a goal, for a person with these `habits`.
 
-    The parts of courses are kept as long as goal and scene are the same: only the person's ways
-    change meanwhile.
+    The parts of courses are kept as long as goal and scene are the same: only the habits change
+    meanwhile.
     """
 
-    def __init__(self, assumed: Assumed, ways: Ways) -> None:
+    def __init__(self, assumed: Assumed, habits: Habits) -> None:
         self._assumed = assumed
-        self._ways = ways
+        self._habits = habits
         self._scene: Scene | None = None
         self._goal = ""
         self._parts: dict[tuple[Level, Pose], _Part] = {}
 
     def led(self, scene: Scene, pose: Pose, goal: str, level: Level, share: float) -> float:
         """For somebody who is led at C1 or C2 and knows the `share` of the rooms."""
-        return self.led_plain(scene, pose, goal, level, share) * self._ways.factor(level)
+        return self.led_plain(scene, pose, goal, level, share) * self._habits.factor(level)
 
     def led_plain(self, scene: Scene, pose: Pose, goal: str, level: Level, share: float) -> float:
         """The same without the factor of the level."""
@@ -146,7 +146,7 @@ class LegTimes:
 
     def known(self, scene: Scene, pose: Pose, goal: str) -> float:
         """At C3 for somebody who knows the way."""
-        return self.known_plain(scene, pose, goal) * self._ways.factor(Level.C3)
+        return self.known_plain(scene, pose, goal) * self._habits.factor(Level.C3)
 
     def known_plain(self, scene: Scene, pose: Pose, goal: str) -> float:
         """The same without the factor of the level."""
@@ -158,11 +158,11 @@ class LegTimes:
     def walk(self, scene: Scene, pose: Pose, goal: str) -> float:
         """The rest of the way at C3 for somebody who knows it and has read."""
         distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)
-        return max(0, distance - 1) * self._ways.step_ms * self._assumed.detour
+        return max(0, distance - 1) * self._habits.step_ms * self._assumed.detour
 
     def reading(self, words: int) -> float:
         """To read so many words."""
-        return self._ways.slowness * self.usual_reading(words)
+        return self._habits.slowness * self.usual_reading(words)
 
     def usual_reading(self, words: int) -> float:
         """The same at usual slowness."""
@@ -170,7 +170,7 @@ class LegTimes:
 
     def _carried_out(self, part: _Part, unknowing: float) -> float:
         """To read and carry out an instruction: the next sentence is read while walking."""
-        assumed, slowness, step_ms = self._assumed, self._ways.slowness, self._ways.step_ms
+        assumed, slowness, step_ms = self._assumed, self._habits.slowness, self._habits.step_ms
         read, done = assumed.react_ms * slowness, 0.0
         for number, sentence in enumerate(part.sentences):
             read += assumed.word_ms * slowness * sentence.words
