@@ -9,6 +9,7 @@ from game.coach.acts import (
     Disobeyed,
     GoalSet,
     InstructionIssued,
+    KnowledgeJudged,
     Level,
     LevelChanged,
     Misstep,
@@ -26,9 +27,9 @@ class Thoughts:
     """The coach's state of mind as far as its records tell it.
 
     `guidance` is what stands on the bar. `evaluation` is the latest, which may be of an earlier
-    goal than `goal`. The rooms and victims are those whose place the coach believes the rescuer to
-    know (b^HR); `unseen_cells` counts the cells that, as it believes, the rescuer thinks any other
-    victim may be in.
+    goal than `goal`; `judged` is the latest choice by what the rescuer knows. The rooms and victims
+    are those whose place the coach believes the rescuer to know (b^HR); `unseen_cells` counts the
+    cells that, as it believes, the rescuer thinks any other victim may be in.
     """
 
     level: Level | None = None
@@ -38,6 +39,7 @@ class Thoughts:
     instruction: InstructionIssued | None = None
     guidance: Guidance | None = None
     evaluation: PosteriorEvaluated | None = None
+    judged: KnowledgeJudged | None = None
     rooms_known: frozenset[str] = frozenset()
     victims_known: frozenset[str] = frozenset()
     victims_resolved: frozenset[str] = frozenset()
@@ -63,6 +65,8 @@ class Thoughts:
                 return replace(self, level=record.after)
             case PosteriorEvaluated():
                 return replace(self, evaluation=record)
+            case KnowledgeJudged():
+                return replace(self, judged=record)
             case BeliefChanged():
                 return replace(
                     self,
