@@ -92,11 +92,11 @@ def options_of(
     coach: str,
     preset: str | None,
     level: int | None,
-    levels_of: Path | None,
     seed: int | None,
     log: Path | None,
     minutes: float | None,
     assignments: tuple[str, ...],
+    levels_of: Path | None = None,
 ) -> PlayOptions:
     """The mission that `mission_options` ask for. Raises AnaError, naming the option."""
     settings = assigned(MissionSettings(), assignments)

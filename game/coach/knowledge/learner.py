@@ -12,7 +12,7 @@ from game.coach.bar import OnBar
 from game.coach.cycle import Alpha
 from game.coach.instructions import Pose, Scene
 from game.coach.knowledge.assumed import Assumed, QuizMark
-from game.coach.knowledge.rooms import RoomKnowledge, StepChances, Walk
+from game.coach.knowledge.rooms import RoomKnowledge, RoomWalk, StepChances
 from game.coach.knowledge.times import LED, Habits, LegTimes, first_words
 from game.coach.model import Component, HumanModel, Learned
 from game.world.events import Acted, Action, MissionEvent, Outcome, TreatmentStarted
@@ -59,7 +59,7 @@ class KnowledgeLearner:
         self._assumed = assumed
         self._turns_need_a_key = briefing.settings.controls == "turn"
         self._steps = StepChances.of(building.terrain, places, assumed.rationality)
-        self._walk: Walk | None = None
+        self._walk: RoomWalk | None = None
         self._leg: _OpenLeg | None = None
         self._shown: OnBar | None = None
         self._unread = False
@@ -154,7 +154,7 @@ class KnowledgeLearner:
         elif self._walk is None or self._walk.room != room:
             self._settle()
             start = instruction.start.cell
-            self._walk = Walk(self._assumed, self._steps, room, start, self.rooms.seen)
+            self._walk = RoomWalk(self._assumed, self._steps, room, start, self.rooms.seen)
 
     def _settle(self) -> None:
         """What the walk has said is kept."""
@@ -165,7 +165,7 @@ class KnowledgeLearner:
             self._leg.unknown = max(self._leg.unknown or 0.0, 1 - self._known(walk))
         self.rooms.add(walk.room, walk.evidence, seen=walk.seen)
 
-    def _known(self, walk: Walk) -> float:
+    def _known(self, walk: RoomWalk) -> float:
         return self.rooms.known(walk.room, walk=walk.evidence, seen=walk.seen)
 
     def _acted(self, event: Acted, shown: OnBar) -> None:

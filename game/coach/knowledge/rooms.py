@@ -142,7 +142,7 @@ class StepChances:
         return chance
 
 
-class Walk:
+class RoomWalk:
     """A walk after "Go to r": that of somebody who heads for r, or of somebody who tries one place
     after another, as a hidden Markov filter over the places not yet seen, r among them.
 
@@ -164,21 +164,25 @@ class Walk:
         self._minds = self._guesses(start)
 
     def moved(self, position: Cell, seen: frozenset[str]) -> None:
-        """The walker is at `position` now, and the names `seen` have been in view."""
+        """The walker is at `position` now, and the names `seen` have been in view: searchers who
+        had one of those in mind think of another place."""
         start, room = self._position, self.room
         if position == start:
             return
         guesses, change = self._guesses(start), self._assumed.retarget
-        self._open = [name for name in self._open if name == room or name not in seen]
         joint = {
-            name: ((1 - change) * self._minds[name] + change * guesses[name])
+            name: ((1 - change) * mind + change * guesses[name])
             * self._steps.likelihood(name, start, position)
-            for name in self._open
+            for name, mind in self._minds.items()
         }
         total = sum(joint.values())
-        self._minds = {name: chance / total for name, chance in joint.items()}
-        self._position = position
         self.add(log(self._steps.likelihood(room, start, position)) - log(total))
+        self._position = position
+        self._open = [name for name in self._open if name == room or name not in seen]
+        left = {name: joint[name] / total for name in self._open}
+        ruled_out = 1 - sum(left.values())
+        again = self._guesses(position)
+        self._minds = {name: mind + ruled_out * again[name] for name, mind in left.items()}
 
     def paced(self, ratio: float) -> None:
         """A step took `ratio` times as long as this person's usual one: searchers are slower."""
