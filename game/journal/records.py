@@ -18,7 +18,7 @@ from game.coach.spec import CoachSpec
 from game.world.events import MissionEvent
 from game.world.settings import MissionSettings
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 """Changes with any change to what a line holds; `game.journal.upgrades` then reads the older."""
 
 RULES_VERSION = 2

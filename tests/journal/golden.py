@@ -1,4 +1,4 @@
-"""Writes the golden journals of the present schema: `python -m tests.session.golden`.
+"""Writes the golden journals of the present schema: `python -m tests.journal.golden`.
 
 Once a schema has been released its golden journals are never written again.
 """
