@@ -146,11 +146,11 @@ def test_a_step_is_judged_by_the_policy_of_the_human_model() -> None:
     assert tried > 50
 
 
-def test_in_a_corridor_a_step_leads_the_right_way_with_96_percent() -> None:
+def test_in_a_corridor_a_step_leads_the_right_way_with_92_percent() -> None:
     places = {room.name: room.label for room in GALLERY.rooms}
     chances = StepChances(GALLERY.terrain.floodfills, places, ASSUMED.rationality)
-    assert chances.likelihood("Annex", (8, 1), (7, 1)) == pytest.approx(0.96, abs=0.002)
-    assert chances.likelihood("Annex", (8, 1), (9, 1)) == pytest.approx(0.04, abs=0.002)
+    assert chances.likelihood("Annex", (8, 1), (7, 1)) == pytest.approx(0.92, abs=0.005)
+    assert chances.likelihood("Annex", (8, 1), (9, 1)) == pytest.approx(0.08, abs=0.005)
 
 
 # --- the hierarchy over rooms -------------------------------------------------------------------

@@ -9,8 +9,10 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from msgspec import structs
 
 from game.coach.acts import CoachRecord, InstructionIssued, Level
+from game.coach.knowledge.assumed import QuizMark
 from game.journal.failures import JournalError
 from game.journal.missions import missions, strays
 from game.journal.reader import Entry
@@ -37,6 +39,7 @@ from game.journal.records import (
 )
 from game.journal.sink import FileSink, MemorySink
 from game.session.verification import verify
+from game.study.answers import Answers
 from game.study.conduct import Stopped, instructor
 from game.study.dropout import drop_out
 from game.study.folder import Identity, Study, open_study
@@ -45,6 +48,7 @@ from game.study.ledger import SessionEnded as LedgerEnded
 from game.study.lock import SessionBusy, SessionLock
 from game.study.practice import LEGS
 from game.study.protocol import TIMELINE, Step, progress
+from game.world import load_building
 from game.world.events import Acted
 from tests.study.people import MISSION_MS, P01, cut_off, journal_of, small_study, take_part
 
@@ -140,6 +144,29 @@ def test_the_design_cell_is_carried_out(finished: Study) -> None:
         if isinstance(entry.record, PhaseEnded) and entry.envelope.phase == "memorise"
     ]
     assert memorised == [allocated.memorise_ms] * 2
+
+
+def test_only_the_coach_that_asks_for_the_quiz_is_given_it(finished: Study) -> None:
+    (allocated,) = records(finished, Allocated)
+    quizzes: list[dict[str, QuizMark]] = [{"Archive": "right"}, {"Archive": "blank"}]
+    for coach in ("ana", "static", "pace", "knowledge", "knowledge+quiz"):
+        settings = structs.replace(finished.settings, coach=coach)
+        for round_ in (1, 2):
+            specs = [instructor(allocated, round_, settings, quiz) for quiz in quizzes]
+            if specs[0].kind == "knowledge+quiz":
+                assert [spec.quiz for spec in specs] == quizzes
+            else:
+                assert specs[0] == specs[1]
+    kinds = {instructor(allocated, round_, settings, {}).kind for round_ in (1, 2)}
+    assert kinds == {"static", "knowledge+quiz"}
+
+
+def test_a_label_is_right_wrong_or_left_blank() -> None:
+    names = [room.name for room in load_building("practice").rooms]
+    answers = Answers(labels={Step("label", 2): {names[0]: names[0], names[1]: names[2]}})
+    marks = answers.marks(load_building("practice"), 2)
+    assert [marks[name] for name in names[:3]] == ["right", "wrong", "blank"]
+    assert set(answers.marks(load_building("practice"), 1).values()) == {"blank"}
 
 
 def test_practice_shows_every_level_equally_and_never_adapts(finished: Study) -> None:

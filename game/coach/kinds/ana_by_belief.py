@@ -39,7 +39,7 @@ class BeliefThresholds:
             return state
         chance = known.by_room[room.name]
         if point.occasion == "goal":
-            chance = hopeful(chance, known.share_sd, self.assumed.belief_optimism)
+            chance = hopeful(chance, known.share_sd, self.assumed.optimism)
         said = verdict(chance, self.preset.lower_below, self.preset.raise_above)
         return replace(state, level=_LEVELS[said])
 

@@ -26,9 +26,10 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     preparedness" (paper 5.3), a little less at the ends."""
     share_points: int = 20
     """The share is held on a grid of so many points; more changed no decision."""
-    rationality: float = 1.59
+    rationality: float = 1.2
     """Beta of the policy (R^HR's `per_cell`): in a corridor a step leads nearer to where the walker
-    is heading with probability .96, since people turn back or press a wrong key now and then."""
+    is heading with probability .92, since people turn back or press a wrong key now and then
+    (chosen; with 1.6, or .96, people who erred were taken for people who did not know the way)."""
     retarget: float = 0.06
     """Chance, at each step, that a searcher thinks of another place (judgement)."""
     reach_cells: float = 12.0
@@ -102,12 +103,10 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
     first_level: Level = Level.C3
     """Only C3 tells anything about knowledge; the first choice may still be another."""
-    optimism: float = 0.6
+    optimism: float = 1.2
     """How many standard deviations of the share are added to P known when a goal is chosen for: the
-    value of learning what the person knows (chosen)."""
-    belief_optimism: float = 1.2
-    """The same for the preset `belief`: just enough for the first goal to be told at C3."""
-    switch_gain_ms: float = 1_200.0
+    value of learning what the person knows (chosen; enough for `belief` to begin at C3)."""
+    switch_gain_ms: float = 1_000.0
     """Another level must save so much: switching costs attention (chosen: fewer switches, no fewer
     rescues)."""
     show_ms: float = 2_000.0
