@@ -26,8 +26,6 @@ _GIVE: dict[Choice, str] = {
     "quiz": "give the answers of a label quiz",
     "yoke": "give the levels of a finished mission",
 }
-
-
 _OPTIONS: dict[Choice, str] = {
     "level": "--level",
     "preset": "--preset",
@@ -43,7 +41,7 @@ _NEEDED: dict[Choice, tuple[str, str]] = {
 class CoachSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A coach: `kind` is one of `KINDS`, with what may be chosen about it; or `own`, the class in
     `source` (`FILE.py:CLASS`), whose file has the SHA-256 `sha256`. `quiz` is how the rescuer
-    labelled each room beforehand.
+    labelled each room beforehand, and `yoke` the levels to be repeated.
 
     Raises ValueError, naming the field, where one is missing, unknown or of no use to the kind.
     """

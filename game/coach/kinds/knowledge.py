@@ -111,7 +111,7 @@ class SoonestLevel:
     ) -> float | None:
         """Expected time at C3; None where the goal lies in no room. Not knowing the room costs the
         lesser of searching for it and of being led once it shows."""
-        assumed, (scene, pose) = self._assumed, (point.scene, point.pose)
+        assumed, scene, pose = self._assumed, point.scene, point.pose
         room = scene.room(point.goal)
         if room is None:
             return None
@@ -128,10 +128,14 @@ class SoonestLevel:
 
 class KnowledgeCoach(Guide[LevelChoice]):
     """Chooses at each goal, at the end of each instruction and after a misstep; while the rescuer
-    walks to a room by its name, and does not seem to know it, at each step."""
+    walks to a room by its name, and does not seem to know it, at each step; for one who is lost."""
 
-    def __init__(self, briefing: Briefing, quiz: Mapping[str, QuizMark] | None = None) -> None:
-        assumed = ASSUMED
+    def __init__(
+        self,
+        briefing: Briefing,
+        quiz: Mapping[str, QuizMark] | None = None,
+        assumed: Assumed = ASSUMED,
+    ) -> None:
         self._learner = learner = KnowledgeLearner(briefing, assumed, quiz)
         influence = SoonestLevel(assumed, learner.times, learner.habits)
         super().__init__(briefing, learner, influence, LevelChoice(assumed.first_level))
