@@ -66,7 +66,7 @@ def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
         BLANK,
         _heading("What the coach says"),
         *_levels(),
-        _line("The coaches ana and knowledge choose among them by how well you find your way."),
+        _line("ana and knowledge choose among them by how well you find your way."),
     ]
 
 
