@@ -97,7 +97,7 @@ def test_everything_the_office_hears_is_made_of_the_vocabulary() -> None:
     ],
 )
 def test_what_a_level_cannot_say_is_refused(level: Level, said: Tuple) -> None:
-    with pytest.raises(ValueError, match=f"no tuple of level {level.name}"):
+    with pytest.raises(ValueError, match=f"is not a tuple of level {level.name}"):
         render(level, (said,))
 
 
