@@ -130,6 +130,30 @@ class BeliefChanged(CoachAct, frozen=True, tag="belief_changed"):
     unseen_cells: int
 
 
+ChoiceReason = Literal["soonest", "stays", "looks_lost", "lost"]
+"""Why `knowledge` chose a level: it is expected to be soonest; another would be sooner, but by too
+little to change; the walk looks like that of somebody who does not know the way; the rescuer has
+not come nearer for too long."""
+
+
+class KnowledgeJudged(CoachAct, frozen=True, tag="knowledge_judged", kw_only=True):
+    """What the coach held the rescuer to know when it chose the level `chosen` for `goal`.
+
+    `known` is P(the place of the room is known) by room, and `share` the expected share of rooms
+    known from the start. `expected_ms` is how long the leg is expected to take at each level, by
+    `C1` to `C3`; a level that cannot be chosen is not in it, and a coach that judges by `known`
+    alone expects nothing.
+    """
+
+    goal: str
+    room: str | None
+    known: dict[str, float]
+    share: float
+    expected_ms: dict[str, float]
+    chosen: Level
+    why: ChoiceReason
+
+
 class PaceLearned(CoachAct, frozen=True, tag="pace_learned"):
     """The learned A^HR: how many milliseconds the rescuer takes for a move."""
 
@@ -147,5 +171,6 @@ CoachRecord = (
     | PosteriorEvaluated
     | LevelChanged
     | BeliefChanged
+    | KnowledgeJudged
     | PaceLearned
 )

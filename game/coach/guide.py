@@ -39,7 +39,7 @@ _NOTICES: dict[GoalReason, str] = {
 """What is said of a goal that is given up before its victim was treated."""
 
 State = TypeVar("State")
-Occasion = Literal["goal", "step", "completed", "misstep", "time"]
+Occasion = Literal["goal", "step", "completed", "misstep", "lost", "time"]
 """When a coach may choose: a goal has been set; the rescuer has moved; an instruction has been
 carried out; a misstep was made; the time that the coach asked for has come."""
 

@@ -93,11 +93,23 @@ class Comprehension:
 
 
 @dataclass(frozen=True)
+class KnownRooms:
+    """What the rescuer is held to know of the rooms, brought along or seen: P(its place is known)
+    by room, and the mean and standard deviation of the share of rooms known from the start."""
+
+    by_room: Mapping[str, float]
+    share: float
+    share_sd: float
+
+
+@dataclass(frozen=True)
 class BeliefEstimate:
-    """b^HR: the belief over states, and beside it, never in its place, the latest proxy."""
+    """b^HR: the belief over states and, beside it, what a coach may have learned of it: the latest
+    proxy, never in its place, and which rooms were known beforehand."""
 
     state: Belief
     comprehension: Comprehension | None = None
+    known: KnownRooms | None = None
 
 
 @dataclass(frozen=True)

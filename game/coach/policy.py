@@ -82,11 +82,31 @@ def directed_moves(
             return Moves(belief.heading, {})
         room = belief.space.rooms[directions.goal]
         targets = {cell: 1.0} if known else belief.place_distribution(room) if room else {}
-    ways = {way: 0.0 for way in Heading if floodfills.plan.walkable(way.from_cell(position))}
+    ways = dict.fromkeys(open_ways(position, floodfills), 0.0)
     for target, weight in (targets or {position: 1.0}).items():
-        for way, share in _softmax_steps(position, target, tuple(ways), floodfills, beta).items():
+        for way, share in steps_to(target, position, floodfills, beta).items():
             ways[way] += weight * share
     return Moves(belief.heading, ways)
+
+
+def open_ways(position: Cell, floodfills: Floodfills) -> tuple[Heading, ...]:
+    """The ways in which a step from `position` is possible."""
+    return tuple(way for way in Heading if floodfills.plan.walkable(way.from_cell(position)))
+
+
+def steps_to(
+    target: Cell, position: Cell, floodfills: Floodfills, beta: float
+) -> dict[Heading, float]:
+    """The next step of somebody at `position` who heads for `target`, with its probabilities; any
+    step where that is unreachable or already reached."""
+    field, index = floodfills.to(target), floodfills.plan.index
+    here, ways = field[index(position)], open_ways(position, floodfills)
+    if here in (0, UNREACHABLE):
+        return dict.fromkeys(ways, 1 / len(ways))
+    risen = {way: field[index(way.from_cell(position))] + 1 - here for way in ways}
+    weights = {way: exp(-beta * rise) for way, rise in risen.items()}
+    total = sum(weights.values())
+    return {way: weight / total for way, weight in weights.items()}
 
 
 def action_probabilities(moves: Moves, actions: Sequence[Action]) -> dict[Action, float]:
@@ -121,20 +141,6 @@ def _along(path: Sequence[Cell], view: int, belief: Belief) -> dict[Cell, float]
         index = belief.space.plan.index
         following = [cell for cell in path if view >> index(cell) & 1][-1:]
     return dict.fromkeys(following, 1.0)
-
-
-def _softmax_steps(
-    position: Cell, target: Cell, ways: Sequence[Heading], floodfills: Floodfills, beta: float
-) -> dict[Heading, float]:
-    """The step to `target`; any step where that is unreachable or already reached."""
-    field, index = floodfills.to(target), floodfills.plan.index
-    here = field[index(position)]
-    if here in (0, UNREACHABLE):
-        return dict.fromkeys(ways, 1 / len(ways))
-    risen = {way: field[index(way.from_cell(position))] + 1 - here for way in ways}
-    weights = {way: exp(-beta * rise) for way, rise in risen.items()}
-    total = sum(weights.values())
-    return {way: weight / total for way, weight in weights.items()}
 
 
 def _action_towards(way: Heading, heading: Heading, actions: Sequence[Action]) -> Action:

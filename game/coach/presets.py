@@ -34,8 +34,9 @@ class Preset(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """Whether comprehension is P of the instructed victim, or of all waiting ones in its room."""
     window_moves: int | None = None
     """The last so many moves within the goal; None: all moves since the goal was set."""
-    evaluate: Literal["every", "instruction", "step"]
-    """Every `every_ms`; when an instruction is completed or a misstep made; or at each move."""
+    evaluate: Literal["every", "instruction", "step", "goal"]
+    """Every `every_ms`; when an instruction is completed or a misstep made; at each move; or when a
+    goal is set."""
     every_ms: int | None = None
     minimum_moves: int = 1
     """With fewer moves in the window there is no evaluation."""
@@ -48,6 +49,9 @@ class Preset(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """`step`: one level up or down (Algorithm 1). `absolute`: C1 below, C3 above, else C2."""
     highest_only_in_goal_room: bool = False
     """The absolute rule gives C3 only in the goal's room."""
+    judges: Literal["path", "belief"] = "path"
+    """By what a level is chosen: P(g* | path), or b^HR(the goal's room) as `knowledge` learns it.
+    With `belief`, what this says about goal inference is of no use."""
     lower_below: float = 0.3
     raise_above: float = 0.8
     agreement: int = 1
@@ -169,7 +173,20 @@ RELEASED = Preset(
 from P alone at every step, C3 is given only inside the goal's room, and each rescue leads back
 to C2. Its floodfill wrote 100 for walls; here walls are infinitely far."""
 
-PRESETS = MappingProxyType({p.name: p for p in (CALIBRATED, LITERAL, FIG10, RELEASED)})
+BELIEF = Preset(
+    name="belief",
+    judges="belief",
+    likelihood="boltzmann",
+    prior="uniform",
+    prior_below_threshold=True,
+    aggregation="room",
+    evaluate="goal",
+    rule="absolute",
+)
+"""The paper's thresholds, applied to what the rescuer is held to know of the goal's room, with a
+bonus for uncertainty (`game.coach.knowledge.assumed`)."""
+
+PRESETS = MappingProxyType({p.name: p for p in (CALIBRATED, LITERAL, FIG10, RELEASED, BELIEF)})
 
 
 def preset(name: str) -> Preset:

@@ -16,6 +16,7 @@ from game.coach.spec import parse_coach
 from game.errors import AnaError, choose_from
 from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
+from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.settings import MissionSettings
 
@@ -39,10 +40,17 @@ def mission_options(command: _Command) -> _Command:
             "--coach",
             default="ana",
             show_default=True,
-            help="ana adapts its level, static does not; FILE.py:CLASS loads your own.",
+            help="ana and knowledge adapt their level, static does not; yoked repeats the levels "
+            "of another mission; FILE.py:CLASS loads your own.",
         ),
         click.option("--preset", help=f"How ana adapts: {', '.join(PRESETS)}."),
         click.option("--level", type=int, help="The level of a static coach: 1, 2 or 3."),
+        click.option(
+            "--levels-of",
+            type=click.Path(path_type=Path, dir_okay=False),
+            metavar="JOURNAL",
+            help="The mission whose levels a yoked coach repeats.",
+        ),
         click.option(
             "--seed",
             type=int,
@@ -91,15 +99,18 @@ def options_of(
     log: Path | None,
     minutes: float | None,
     assignments: tuple[str, ...],
+    levels_of: Path | None = None,
 ) -> PlayOptions:
     """The mission defined by `mission_options`. Raises AnaError, naming the option."""
     settings = assigned(MissionSettings(), assignments)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
     seed = int.from_bytes(os.urandom(4)) if seed is None else seed
+    plan = load_building(building, seed)
+    yoke = None if levels_of is None else yoke_of(levels_of, plan)
     return PlayOptions(
-        building=load_building(building, seed),
-        spec=parse_coach(coach, level, preset),
+        building=plan,
+        spec=parse_coach(coach, level, preset, yoke=yoke),
         settings=settings,
         seed=seed,
         log_dir=log or sessions_folder(),

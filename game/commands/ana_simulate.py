@@ -12,6 +12,7 @@ from game.coach.spec import DEFAULT_PRESET
 from game.rescuers.person import POPULATIONS
 from game.simulation.simulated_study import Workers, simulate
 from game.simulation.workers import cores, here, on_cluster, on_cores
+from game.study.study_settings import ADAPTIVE
 
 
 @click.command(name="simulate")
@@ -31,9 +32,15 @@ from game.simulation.workers import cores, here, on_cluster, on_cores
     help="What kind of people take part.",
 )
 @click.option(
+    "--coach",
+    metavar="KIND",
+    help="The adaptive instructor of a new study: as in ana play, or knowledge+quiz.  "
+    f"[default: {ADAPTIVE}]",
+)
+@click.option(
     "--preset",
     type=click.Choice(list(PRESETS)),
-    help=f"How the adaptive instructor of a new study adapts.  [default: {DEFAULT_PRESET}]",
+    help=f"How ana adapts in a new study.  [default: {DEFAULT_PRESET}]",
 )
 def simulate_command(
     folder: Path,
@@ -42,6 +49,7 @@ def simulate_command(
     jobs: int | None,
     scheduler: str | None,
     population: str,
+    coach: str | None,
     preset: str | None,
 ) -> None:
     """Let N simulated people take part in the study DIR, which is created if it does not exist.
@@ -50,7 +58,7 @@ def simulate_command(
     the same journals on any machine. After an interruption, run the command again to continue.
     """
     workers = _workers(jobs, scheduler)
-    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset)
+    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset, coach)
     before = next(progress)
     with click.progressbar(length=participants, label="Simulating", show_pos=True) as bar:
         bar.update(before)

@@ -12,12 +12,13 @@ from typing import Annotated, Literal, get_args
 import msgspec
 
 from game.coach.acts import CoachRecord, Level
+from game.coach.knowledge.assumed import Assumed
 from game.coach.presets import Preset
 from game.coach.spec import CoachSpec
 from game.world.events import MissionEvent
 from game.world.settings import MissionSettings
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 """Changes with any change to what a line holds; `game.journal.upgrades` then reads the older."""
 
 RULES_VERSION = 2
@@ -137,7 +138,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     """Everything that determines a mission, except the actions.
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
-    coach's preset as it was then, None for a coach without one.
+    coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
+    one that judges what the rescuer knows.
     """
 
     building: str
@@ -148,6 +150,7 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     settings: MissionSettings
     seed: int
     rules_version: int
+    assumed: Assumed | None = None
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

@@ -9,6 +9,7 @@ from game.coach.acts import (
     Disobeyed,
     GoalSet,
     InstructionIssued,
+    KnowledgeJudged,
     Level,
     LevelChanged,
     Misstep,
@@ -25,10 +26,10 @@ from game.world.observation import Guidance
 class Thoughts:
     """The coach's state of mind, as far as its records show it.
 
-    `guidance` is the text on the bar. `evaluation` is the latest, possibly of a goal before `goal`.
-    The rooms and victims are those whose place the rescuer knows, as the coach believes (b^HR);
-    `unseen_cells` counts the cells where, in the same belief, the rescuer thinks any other victim
-    may be.
+    `guidance` is the text on the bar. `evaluation` is the latest, possibly of a goal before `goal`;
+    `judged` is the latest choice by what the rescuer knows. The rooms and victims are those whose
+    place the rescuer knows, as the coach believes (b^HR); `unseen_cells` counts the cells where, in
+    the same belief, the rescuer thinks any other victim may be.
     """
 
     level: Level | None = None
@@ -38,6 +39,7 @@ class Thoughts:
     instruction: InstructionIssued | None = None
     guidance: Guidance | None = None
     evaluation: PosteriorEvaluated | None = None
+    judged: KnowledgeJudged | None = None
     rooms_known: frozenset[str] = frozenset()
     victims_known: frozenset[str] = frozenset()
     victims_resolved: frozenset[str] = frozenset()
@@ -63,6 +65,8 @@ class Thoughts:
                 return replace(self, level=record.after)
             case PosteriorEvaluated():
                 return replace(self, evaluation=record)
+            case KnowledgeJudged():
+                return replace(self, judged=record)
             case BeliefChanged():
                 return replace(
                     self,

@@ -17,8 +17,9 @@ Fields = dict[str, Any]
 
 Upgrade = Callable[[Fields], Fields]
 
-UPGRADES: Mapping[int, Upgrade] = {}
-"""From schema version n to n + 1, for every earlier version."""
+UPGRADES: Mapping[int, Upgrade] = {1: lambda fields: fields}
+"""From schema version n to n + 1, for every version before the present one. Schema 2 only added:
+kinds of records, and fields with defaults."""
 
 
 def upgraded(fields: Fields, schema: int, upgrades: Mapping[int, Upgrade]) -> Fields:

@@ -10,7 +10,7 @@ from typing import Literal
 
 from game.coach.api import Briefing, Coach
 from game.coach.presets import Preset, preset
-from game.coach.spec import CoachSpec, build_coach
+from game.coach.spec import CoachSpec, assumed_of, build_coach
 from game.journal.clock import Clock, SystemClock, VirtualClock
 from game.journal.folders import JOURNAL
 from game.journal.records import (
@@ -110,6 +110,7 @@ def mission_started(
         settings=settings,
         seed=seed,
         rules_version=RULES_VERSION,
+        assumed=assumed_of(spec),
     )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from game.coach.spec import build_coach
+from game.coach.spec import assumed_of, build_coach
 from game.errors import AnaError
 from game.journal.history import MissionHistory, read_history
 from game.journal.journal_error import JournalError
@@ -129,6 +129,7 @@ def _unplayable(mission: MissionHistory) -> Difference | None:
         ("rules_version", started.rules_version, RULES_VERSION),
         ("building_sha256", started.building_sha256, sha256_of_text),
         ("preset", started.preset, preset_of(started.coach)),
+        ("assumed", started.assumed, assumed_of(started.coach)),
     )
     for field, recorded, expected in must_agree:
         if recorded != expected:

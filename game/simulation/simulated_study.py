@@ -16,6 +16,7 @@ from game.simulation.workers import Journals
 from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS, Identity, Study, StudyError, new_study, open_study
 from game.study.ledger import Ledger, SlotTaken, ending_of
+from game.study.study_settings import ADAPTIVE
 
 Workers = Callable[[Study, Sequence[SlotTaken], Population], Journals]
 _PART = ".part"
@@ -28,15 +29,16 @@ def simulate(
     population: Population,
     workers: Workers,
     preset: str | None = None,
+    coach: str | None = None,
 ) -> Iterator[int]:
     """Simulate the first `participants` of a study in `folder`, which is made if it is new.
 
     Yields how many are finished, first and after each participant. Finished sessions stay as they
     are, so an interrupted simulation continues where it stopped. Slots are taken in the order of
     participants before any work is handed out. Raises StudyError for a folder of another seed,
-    preset or kind of people, AnaError's other relatives for what cannot be read or written.
+    preset, coach or kind of people, AnaError's other relatives for what cannot be read or written.
     """
-    study = _opened(folder, seed, participants, preset)
+    study = _opened(folder, seed, participants, preset, coach)
     ledger = Ledger(folder / LEDGER, simulated_now)
     ledger.agree(study.copy.sha256)
     _same_people(study, population)
@@ -59,15 +61,18 @@ def names(participants: int) -> Iterator[str]:
     return (f"S{number:04}" for number in range(1, participants + 1))
 
 
-def _opened(folder: Path, seed: int, participants: int, preset: str | None) -> Study:
+def _opened(
+    folder: Path, seed: int, participants: int, preset: str | None, coach: str | None
+) -> Study:
     if not (folder / SETTINGS).exists():
         blocks = -(-participants // BLOCK)
-        new_study(folder, seed, blocks, preset or DEFAULT_PRESET, simulated_now)
+        new_study(folder, seed, blocks, preset or DEFAULT_PRESET, coach or ADAPTIVE, simulated_now)
     study = open_study(folder)
     settings = study.settings
     for name, asked, there in (
         ("seed", seed, settings.seed),
         ("preset", preset or settings.preset, settings.preset),
+        ("coach", coach or settings.coach, settings.coach),
     ):
         if asked != there:
             raise StudyError(

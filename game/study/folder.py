@@ -29,7 +29,13 @@ from game.study.ledger import (
     agreement,
     utc_now,
 )
-from game.study.study_settings import ScreenSize, SettingsError, StudySettings, read_settings
+from game.study.study_settings import (
+    ADAPTIVE,
+    ScreenSize,
+    SettingsError,
+    StudySettings,
+    read_settings,
+)
 from game.study.texts import Items, Texts, read_items, read_texts
 from game.world import load_building
 from game.world.building import Building
@@ -94,11 +100,12 @@ def new_study(
     seed: int | None = None,
     blocks: int = 5,
     preset: str = DEFAULT_PRESET,
+    coach: str = ADAPTIVE,
     now: Callable[[], str] = utc_now,
 ) -> None:
     """Create a study folder with the default settings and texts, for the lab to edit.
 
-    `preset` says how the adaptive instructor adapts; `now` gives the time of creation.
+    `coach` is the adaptive instructor and `preset` how it adapts; `now` gives the time of creation.
     Raises StudyError if the folder is not empty or cannot be created.
     """
     seed = randbelow(_MOST_SEED) if seed is None else seed
@@ -110,7 +117,8 @@ def new_study(
         for name in (SETTINGS, TEXTS, ITEMS):
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
-                text = text.format(seed=seed, blocks=blocks, preset=preset, **_BUILDINGS)
+                chosen = {"preset": preset, "coach": coach}
+                text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
             path = folder / name
             path.touch(mode=0o600)
             path.write_text(text, encoding="utf-8")

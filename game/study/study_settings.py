@@ -11,13 +11,22 @@ from typing import Literal
 
 import msgspec
 
+from game.coach.own import SEPARATOR
 from game.coach.presets import PRESETS
+from game.coach.registry import KINDS
 from game.errors import AnaError, did_you_mean
 from game.world.settings import MissionSettings
 
 PrimaryOutcome = Literal[
     "victims", "engagement", "confidence", "frustration", "confusion", "preference"
 ]
+
+
+ADAPTIVE = "ana"
+"""The usual adaptive instructor."""
+_COACHES = tuple(name for name, kind in KINDS.items() if "yoke" not in kind.choices)
+"""The coaches that a session can be led by; one that repeats levels would need a mission for each.
+"""
 
 
 class SettingsError(AnaError):
@@ -68,6 +77,7 @@ class StudySettings(_Section, frozen=True):
     blocks: int
     buildings: tuple[str, str]
     practice_building: str
+    coach: str = ADAPTIVE
     preset: str = "calibrated"
     memorise_seconds: tuple[int, int] = (60, 180)
     label_seconds: int = 240
@@ -87,6 +97,8 @@ class StudySettings(_Section, frozen=True):
         _within("label_seconds", self.label_seconds, 1, 3_600)
         if self.preset not in PRESETS:
             raise ValueError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset}")
+        if SEPARATOR not in self.coach and self.coach not in _COACHES:
+            raise ValueError(f"coach must be one of {', '.join(_COACHES)}, not {self.coach}")
         if self.buildings[0] == self.buildings[1]:
             raise ValueError("the two buildings must differ")
         if self.mission.show_score:

@@ -92,6 +92,10 @@ def coaching() -> Iterator[Figure]:
     yield Figure("coach step, p99", costs.step_p99, "ms", 2)
     yield Figure("route planned anew, p99", route_p99_ms(BUILDINGS, seed=1), "ms", 5)
     yield Figure("coach step with a new route, p99", costs.plan_p99, "ms")
+    for who in ("stranger", "person"):
+        costs = coach_costs(BUILDINGS, range(5), "knowledge", who)
+        yield Figure(f"knowledge with a {who}: step, p99", costs.step_p99, "ms", 2)
+        yield Figure("its choice at a goal and the route, p99", costs.plan_p99, "ms", 25)
     for name in BUILDINGS:
         mission_s(name)
         yield Figure(f"headless mission, {name}", mission_s(name), "s", 0.3)

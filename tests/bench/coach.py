@@ -14,6 +14,7 @@ from game.coach.api import Briefing, Coach
 from game.coach.route import RoutePlanner
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.commands.ana_play import DEFAULT_BUILDING, assigned
+from game.rescuers.catalogue import character
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.session.playing import CoachBuilder, start_in_memory
@@ -104,20 +105,22 @@ def coached_keys(seed: int, count: int, every_ms: int, assignments: Iterable[str
     return keys
 
 
-def coach_costs(names: tuple[str, ...], seeds: range) -> CoachCosts:
-    """Of all answers of ANA in missions of a literal reader, garbage collection off."""
+def coach_costs(
+    names: tuple[str, ...], seeds: range, kind: str = "ana", rescuer: str = "literal"
+) -> CoachCosts:
+    """Of all answers of a coach in missions of a simulated rescuer, garbage collection off."""
     steps_ms: list[float] = []
     plans_ms: list[float] = []
     for name in names:
         building = load_building(name)
         for seed in seeds:
             run, _ = start_in_memory(
-                building, SETTINGS, parse_coach("ana"), seed, rescuer="literal", build=TimedCoach
+                building, SETTINGS, parse_coach(kind), seed, rescuer=rescuer, build=TimedCoach
             )
             coach = run.coach
             assert isinstance(coach, TimedCoach)
             gc.disable()
-            drive(run, reader(building))
+            drive(run, character(rescuer).make(building, SETTINGS, seed))
             gc.enable()
             steps_ms += coach.steps_ms
             plans_ms += coach.plans_ms

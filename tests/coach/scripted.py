@@ -68,7 +68,12 @@ PRACTICE = load_building("practice")
 STATIC = tuple(CoachSpec("static", level=level) for level in Level)
 ADAPTIVE = tuple(CoachSpec("ana", preset=p) for p in ("calibrated", "literal", "fig10", "released"))
 PACE = CoachSpec("pace", level=Level.C2)
-EVERY = (*STATIC, *ADAPTIVE, PACE)
+KNOWLEDGE = (
+    CoachSpec("knowledge"),
+    CoachSpec("knowledge+quiz", quiz={"Archive": "right", "Bureau": "wrong"}),
+    CoachSpec("ana", preset="belief"),
+)
+EVERY = (*STATIC, *ADAPTIVE, PACE, *KNOWLEDGE)
 
 N, E, S, W, T = Action.NORTH, Action.EAST, Action.SOUTH, Action.WEST, Action.TRIAGE
 
@@ -140,7 +145,10 @@ def _steps(game: Game) -> list[tuple[int, Action]]:
 
 def check_records(game: Game, spec: CoachSpec) -> None:
     """The laws of a coach's records."""
-    goal, number, completed, level = "", 0, True, spec.level or Level.C2
+    goal, number, completed = "", 0, True
+    issued = only(InstructionIssued, game.records)
+    level = issued[0].level
+    assert spec.level in (None, level)
     bar, notice = "", ""
     gone: set[str] = set()
     for before, record in pairwise([None, *game.records]):

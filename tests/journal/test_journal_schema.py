@@ -40,8 +40,9 @@ def test_the_schema_is_a_valid_json_schema() -> None:
 @pytest.mark.parametrize("name", ["mission", "every-record"])
 def test_the_golden_journals_satisfy_it(name: str) -> None:
     check = validator()
-    for line in lines(GOLDEN / f"schema-1-{name}.jsonl"):
-        check.validate(line)
+    for schema in range(1, SCHEMA_VERSION + 1):
+        for line in lines(GOLDEN / f"schema-{schema}-{name}.jsonl"):
+            check.validate(line)
 
 
 @pytest.mark.parametrize(
@@ -77,7 +78,7 @@ def test_golden_journals_of_every_schema_version_are_read() -> None:
 
 
 def test_the_golden_mission_reproduces_and_replays() -> None:
-    path = GOLDEN / "schema-1-mission.jsonl"
+    path = GOLDEN / f"schema-{SCHEMA_VERSION}-mission.jsonl"
     assert verify(path, build=toy).difference is None
     replay = Replay(read_journal(path))
     replay.seek(replay.duration_ms)
@@ -87,7 +88,7 @@ def test_the_golden_mission_reproduces_and_replays() -> None:
 
 
 def test_the_other_golden_journal_has_every_kind_of_record() -> None:
-    read = read_journal(GOLDEN / "schema-1-every-record.jsonl")
+    read = read_journal(GOLDEN / f"schema-{SCHEMA_VERSION}-every-record.jsonl")
     assert {type(entry.record) for entry in read.entries} == set(KINDS)
 
 

@@ -25,6 +25,7 @@ SPECS = (
     *(CoachSpec("ana", preset=name) for name in PRESETS),
     *(CoachSpec("static", level=level) for level in Level),
     CoachSpec("pace", level=Level.C2),
+    CoachSpec("knowledge"),
 )
 
 

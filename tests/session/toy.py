@@ -18,7 +18,7 @@ from game.coach.api import Briefing
 from game.coach.spec import CoachSpec
 from game.journal.clock import VirtualClock
 from game.journal.reader import Transcript, parse_journal
-from game.journal.records import SessionStarted, Versions
+from game.journal.records import SCHEMA_VERSION, SessionStarted, Versions
 from game.journal.sink import MemorySink
 from game.journal.writer import Journal
 from game.session.playing import begin_mission, end_free_play
@@ -144,7 +144,7 @@ def opening(settings: MissionSettings = SETTINGS) -> SessionStarted:
         simulated=True,
         rescuer="keys",
         participant="",
-        versions=Versions(game="0.1.0", schema=1, python="3.11.2"),
+        versions=Versions(game="0.1.0", schema=SCHEMA_VERSION, python="3.11.2"),
         settings=settings,
         seed=7,
         terminal=None,

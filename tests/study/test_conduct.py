@@ -9,9 +9,11 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from msgspec import structs
 
 from game.coach.acts import CoachRecord, InstructionIssued, Level
-from game.journal.history import Step, history_of, read_history
+from game.coach.knowledge.assumed import QuizMark
+from game.journal.history import History, Step, history_of, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Entry
 from game.journal.records import (
@@ -41,9 +43,10 @@ from game.study.folder import Identity, Study, open_study
 from game.study.lab.leaving import drop_out
 from game.study.ledger import CameBack, NoPlace, SessionOutcome, SlotTaken, ending_of, slot_of
 from game.study.lock import SessionBusy, SessionLock
-from game.study.protocol.conduct import Stopped, instructor
+from game.study.protocol.conduct import Stopped, instructor, quiz_marks
 from game.study.protocol.practice import LEGS
 from game.study.protocol.timeline import TIMELINE
+from game.world import load_building
 from game.world.events import Acted
 from tests.study.people import MISSION_MS, P01, cut_off, journal_of, small_study, take_part
 
@@ -129,7 +132,7 @@ def test_the_design_cell_is_carried_out(finished: Study) -> None:
     assert tuple(start.building for start in begun) == tuple(
         finished.building(name).name for name in allocated.buildings
     )
-    specs = [instructor(allocated, number, finished.settings.preset) for number in (1, 2)]
+    specs = [instructor(allocated, number, finished.settings, {}) for number in (1, 2)]
     assert [start.coach for start in begun] == specs
     assert {spec.kind for spec in specs} == {"ana", "static"}
     assert specs[0].kind == ("ana" if taken.cell.adaptive_first else "static")
@@ -139,6 +142,31 @@ def test_the_design_cell_is_carried_out(finished: Study) -> None:
         if isinstance(entry.record, PhaseEnded) and entry.envelope.phase == "memorise"
     ]
     assert memorised == [allocated.memorise_ms] * 2
+
+
+def test_only_the_coach_that_asks_for_the_quiz_is_given_it(finished: Study) -> None:
+    (allocated,) = records(finished, Allocated)
+    quizzes: list[dict[str, QuizMark]] = [{"Archive": "right"}, {"Archive": "blank"}]
+    for coach in ("ana", "static", "pace", "knowledge", "knowledge+quiz"):
+        settings = structs.replace(finished.settings, coach=coach)
+        for round_ in (1, 2):
+            specs = [instructor(allocated, round_, settings, quiz) for quiz in quizzes]
+            if specs[0].kind == "knowledge+quiz":
+                assert [spec.quiz for spec in specs] == quizzes
+            else:
+                assert specs[0] == specs[1]
+    kinds = {instructor(allocated, round_, settings, {}).kind for round_ in (1, 2)}
+    assert kinds == {"static", "knowledge+quiz"}
+
+
+def test_a_label_is_right_wrong_or_left_blank() -> None:
+    names = [room.name for room in load_building("practice").rooms]
+    history = History()
+    for room, label in ((names[0], names[0]), (names[1], names[2])):
+        history.labels[2, room] = QuizAnswer(room, label, label == room, 0), 0
+    marks = quiz_marks(history, load_building("practice"), 2)
+    assert [marks[name] for name in names[:3]] == ["right", "wrong", "blank"]
+    assert set(quiz_marks(history, load_building("practice"), 1).values()) == {"blank"}
 
 
 def test_practice_shows_every_level_equally_and_never_adapts(finished: Study) -> None:

@@ -17,6 +17,7 @@ NAMES = {
     "first": "one",
     "second": "two",
     "practice": "three",
+    "coach": "ana",
     "preset": "calibrated",
 }
 
@@ -49,6 +50,7 @@ def test_the_template_is_valid_and_hides_score_and_pause(study_toml: Path) -> No
         ("show_score = false", "", "show_score must be false"),
         ('"one", "two"', '"one", "one"', "two buildings must differ"),
         ("[60, 180]", "[180, 60]", "memorise_seconds"),
+        ('coach = "ana"', 'coach = "yoked"', "coach must be one of .*, not yoked"),
         ("seed = 1", "seed = ", "not TOML"),
     ],
 )

@@ -11,6 +11,7 @@ from game.coach.comprehension import (
 )
 from game.coach.guide import Guide, Occasion
 from game.coach.instructions import Pose
+from game.coach.kinds.ana_by_belief import AnaByBelief
 from game.coach.levels import LevelState
 from game.coach.presets import Preset
 from game.world.geometry import Cell
@@ -20,6 +21,7 @@ _OCCASIONS: dict[str, tuple[Occasion, ...]] = {
     "step": ("step",),
     "instruction": ("completed", "misstep"),
     "every": ("time",),
+    "goal": ("goal",),
 }
 """The occasions on which a preset evaluates."""
 
@@ -72,3 +74,8 @@ class Ana(Guide[LevelState]):
         if comprehension is None or state.level is before.level:
             return []
         return [LevelChanged(at_ms, before.level, state.level, comprehension.value)]
+
+
+def ana(briefing: Briefing, preset: Preset) -> Ana | AnaByBelief:
+    """ANA as `preset` has it."""
+    return AnaByBelief(briefing, preset) if preset.judges == "belief" else Ana(briefing, preset)

@@ -1,11 +1,12 @@
-"""What the coach believes: P(g*) against its thresholds, the posterior, the level, and b^HR."""
+"""What the coach believes: P(g*) against its thresholds, or which rooms the rescuer knows and how
+long the leg will take; the level, and b^HR."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import ClassVar
 
-from game.coach.acts import CoachRecord, PosteriorEvaluated
+from game.coach.acts import ChoiceReason, CoachRecord, KnowledgeJudged, PosteriorEvaluated
 from game.coach.api import Briefing, Coach
 from game.coach.registry import KINDS
 from game.coach.spec import CoachSpec, build_coach
@@ -20,8 +21,18 @@ from game.world.observation import Guidance, Observation
 LIKELY = ("·", "∘", "○", "◉", "●")
 """Marks of a victim on the map by its posterior: below .05, .2, .4, .7, and above."""
 _STEPS = (0.05, 0.2, 0.4, 0.7)
+_KNOWN = (0.2, 0.4, 0.6, 0.8)
+"""The same marks for a room by P(known)."""
 LISTED = 5
 """So many victims are listed, the most likely first."""
+_WHY: dict[ChoiceReason, str] = {
+    "soonest": "expected to be soonest",
+    "stays": "another gains too little",
+    "looks_lost": "seems not to know the way",
+    "lost": "has not come nearer",
+}
+BAR_COLUMNS = 12
+"""The longest bar of an expected time."""
 
 
 class OverheardCoach:
@@ -59,17 +70,29 @@ class OverheardCoach:
         return records
 
 
-def posterior_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
-    """Every victim of the latest evaluation on the map, the more likely the fuller."""
+def coach_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
+    """On the map, the fuller the likelier: every room as one that the rescuer knows, or every
+    victim as the one that they walk to."""
+    if thoughts.judged is not None:
+        known = thoughts.judged.known
+        return {
+            room.label: _pin(known[room.name], _KNOWN)
+            for room in building.rooms
+            if room.name in known
+        }
     if thoughts.evaluation is None:
         return {}
     pins = {}
     for victim in building.victims:
         chance = thoughts.evaluation.posterior.get(victim.id)
         if chance is not None:
-            step = sum(chance >= limit for limit in _STEPS)
-            pins[victim.cell] = LIKELY[step], f"likely-{step}"
+            pins[victim.cell] = _pin(chance, _STEPS)
     return pins
+
+
+def _pin(chance: float, steps: Sequence[float]) -> Pin:
+    step = sum(chance >= limit for limit in steps)
+    return LIKELY[step], f"likely-{step}"
 
 
 def coach_rows(
@@ -77,6 +100,11 @@ def coach_rows(
 ) -> list[Row]:
     """The panel, `columns` wide: two blocks side by side where there is room. `infers` is whether
     the coach asks where the rescuer is walking to."""
+    if thoughts.judged is not None:
+        left = [*_level(thoughts, building), *_knows(thoughts.judged)]
+        if columns < 48:
+            return [*left, *_expected(thoughts.judged)]
+        return beside(left, _expected(thoughts.judged), 27)
     if not infers:
         level, goal = _level(thoughts, building)
         return [level, goal, (("This coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
@@ -99,6 +127,27 @@ def _level(thoughts: Thoughts, building: Building) -> list[Row]:
     if thoughts.goal is not None:
         goal = (("→ ", "quiet"), *_named(victims[thoughts.goal], building, 22))
     return [tuple(level), goal]
+
+
+def _knows(judged: KnowledgeJudged) -> list[Row]:
+    """What the rescuer is held to know, and why this level was chosen."""
+    rows: list[Row] = []
+    if judged.room is not None:
+        chance = judged.known[judged.room]
+        rows.append((("knows this room ", "quiet"), (f"{chance:.2f}", _pin(chance, _KNOWN)[1])))
+    share: Row = (("knows of all ", "quiet"), (f"{judged.share:.2f}", "strong"))
+    return [*rows, share, ((_WHY[judged.why], "quiet"),)]
+
+
+def _expected(judged: KnowledgeJudged) -> list[Row]:
+    """How long the leg is expected to take at each level, as bars; the chosen one stands out."""
+    longest_ms = max(judged.expected_ms.values(), default=1.0)
+    rows: list[Row] = [(("Expected time", "title"),)] if judged.expected_ms else []
+    for name, ms in judged.expected_ms.items():
+        style = "middle" if name == judged.chosen.name else "quiet"
+        full = max(1, round(BAR_COLUMNS * ms / longest_ms))
+        rows.append(((f"{name} {'█' * full} {ms / 1000:.0f} s", style),))
+    return rows
 
 
 def _comprehension(thoughts: Thoughts) -> list[Row]:

@@ -41,6 +41,7 @@ _SCENE_KINDS = {
 BUILDINGS = ("harbour", "foundry", "practice")
 COACHES = (
     ("ana", "ana, which adapts to you"),
+    ("knowledge", "knowledge, which learns what you know"),
     ("static-1", "step by step (C1)"),
     ("static-2", "by doors and hallways (C2)"),
     ("static-3", "by room names (C3)"),

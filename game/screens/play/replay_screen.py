@@ -14,7 +14,7 @@ from textual.timer import Timer
 from game.coach.acts import LevelChanged
 from game.errors import AnaError
 from game.journal.reader import Transcript
-from game.screens.play.coachpanel import CoachPanel, posterior_pins
+from game.screens.play.coachpanel import CoachPanel, coach_pins
 from game.screens.play.mission_screen import Failed
 from game.screens.play.mission_story import coach_name
 from game.screens.play.missionview import MissionView
@@ -153,7 +153,7 @@ class ReplayScreen(Screen[None]):
 
     def _show(self) -> None:
         replay, playing = self.replay, self._playing is not None
-        self._view.show(replay.observation(), posterior_pins(replay.thoughts, replay.building))
+        self._view.show(replay.observation(), coach_pins(replay.thoughts, replay.building))
         self._panel.show(replay.thoughts)
         self._timeline.draw(
             timeline_rows(

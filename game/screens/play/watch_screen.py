@@ -11,7 +11,7 @@ from textual.widget import Widget
 
 from game.rescuers.catalogue import Character
 from game.rescuers.driver import Rescuer
-from game.screens.play.coachpanel import CoachPanel, OverheardCoach, posterior_pins
+from game.screens.play.coachpanel import CoachPanel, OverheardCoach, coach_pins
 from game.screens.play.live import LiveMission
 from game.screens.play.mission_screen import LiveScreen
 from game.screens.widgets.keyline import KeyLine
@@ -59,7 +59,7 @@ class WatchScreen(LiveScreen):
 
     def show(self, observation: Observation) -> None:
         thoughts = self._coach.thoughts
-        pins = posterior_pins(thoughts, self.live.run.mission.building)
+        pins = coach_pins(thoughts, self.live.run.mission.building)
         self.view.show(observation, pins if self._panel.display else None)
         self._panel.show(thoughts)
         who = f"{self._who.summary}, " if self.size.width >= SUMMARY_COLUMNS else ""

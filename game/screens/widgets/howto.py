@@ -66,7 +66,7 @@ def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
         BLANK,
         _heading("What the coach says"),
         *_levels(),
-        _line("ana picks the level to suit how well you find your way."),
+        _line("ana and knowledge pick the level to suit how well you find your way."),
     ]
 
 

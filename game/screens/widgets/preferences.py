@@ -17,7 +17,7 @@ class Preferences(msgspec.Struct, frozen=True):
     """The last choices. `ground` is None while the user has not chosen one."""
 
     building: Literal["harbour", "foundry", "practice"] = "harbour"
-    coach: Literal["ana", "static-1", "static-2", "static-3"] = "ana"
+    coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
 
     def replaced(self, **changes: str) -> Preferences:

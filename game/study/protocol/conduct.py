@@ -12,8 +12,9 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Literal, Protocol
 
-from game.coach.spec import CoachSpec
-from game.journal.history import Step
+from game.coach.knowledge.assumed import QuizMark
+from game.coach.spec import CoachSpec, coach_given
+from game.journal.history import History, Step
 from game.journal.records import (
     ROUNDS,
     Allocated,
@@ -40,7 +41,7 @@ from game.study.protocol.practice import (
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.protocol.timeline import Point, next_point
-from game.study.study_settings import ScreenSize
+from game.study.study_settings import ScreenSize, StudySettings
 from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
 from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
@@ -256,7 +257,8 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     )
     await who.read(page)
     await _start(session, step, rules.duration_ms)
-    spec = instructor(await _allocated(session), step.round, study.settings.preset)
+    quiz = quiz_marks(session.history, building, step.round)
+    spec = instructor(await _allocated(session), step.round, study.settings, quiz)
     task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
     assert task.run is not None
@@ -331,10 +333,14 @@ _PHASES: dict[Phase, Callable[[StudySession, Participant, Step, int], Awaitable[
 }
 
 
-def instructor(allocated: Allocated, round_: int, preset: str) -> CoachSpec:
-    """The instructor of a round."""
+def instructor(
+    allocated: Allocated, round_: int, settings: StudySettings, quiz: dict[str, QuizMark]
+) -> CoachSpec:
+    """Who coaches a round. Only a coach that asks for the round's label quiz is given it."""
     if allocated.adaptive_first is (round_ == ROUNDS[0]):
-        return CoachSpec("ana", preset=preset)
+        return coach_given(
+            settings.coach, level=allocated.static_level, preset=settings.preset, quiz=quiz
+        )
     return CoachSpec("static", level=allocated.static_level)
 
 
@@ -350,3 +356,13 @@ def _building(session: StudySession, step: Step) -> Building:
     allocated = session.history.allocated
     assert allocated is not None
     return session.study.building(allocated.buildings[step.round - 1])
+
+
+def quiz_marks(history: History, building: Building, round_: int) -> dict[str, QuizMark]:
+    """How the rooms of `building` were labelled in a round."""
+    given = history.names_given(round_)
+
+    def mark(room: str) -> QuizMark:
+        return "blank" if room not in given else "right" if given[room] == room else "wrong"
+
+    return {room.name: mark(room.name) for room in building.rooms}

@@ -20,6 +20,7 @@ from analysis.sources.tables_folder import read_tables, write_tables
 from analysis.stats.groups import grouped
 from game.errors import AnaError
 from game.journal.journal_error import JournalError
+from game.journal.records import SCHEMA_VERSION
 from game.tables.exclusions import read_rules
 from game.tables.rejudging import with_prior_mass
 from tests.analysis.simulated import first_of_the_shipped
@@ -149,7 +150,7 @@ def test_a_line_that_is_gone_is_named(copy: Path) -> None:
 
 def test_a_newer_schema_is_named(copy: Path) -> None:
     text = journal(copy).read_text()
-    journal(copy).write_text(text.replace('"schema":1', '"schema":99', 1))
+    journal(copy).write_text(text.replace(f'"schema":{SCHEMA_VERSION}', '"schema":99', 1))
     with pytest.raises(AnaError, match="schema 99"):
         load_recorded(copy, check=False)
 

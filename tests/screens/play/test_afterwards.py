@@ -12,6 +12,7 @@ from game.coach.acts import InstructionIssued, Level, LevelChanged
 from game.coach.spec import CoachSpec, parse_coach
 from game.journal.reader import read_journal
 from game.journal.records import MissionAbandoned, RunRecord
+from game.screens.play.coachpanel import coach_pins, coach_rows
 from game.screens.play.mission_story import tell
 from game.screens.play.replay_screen import ReplayScreen, timeline_rows
 from game.screens.play.result import result_rows
@@ -111,6 +112,25 @@ async def test_beside_a_coach_that_infers_nothing_nothing_is_awaited(
     async with open_app(lambda app: app.replay(adaptive)) as (_, pilot):
         replay = await until(pilot, ReplayScreen)
         assert "P(g*) not known yet" in shown(replay) and "Walking to" in shown(replay)
+
+
+@pytest.mark.parametrize("columns", [26, 50])
+def test_beside_knowledge_stands_what_the_rescuer_knows_and_each_level_costs(
+    tmp_path: Path, ward: Building, columns: int
+) -> None:
+    replay = Replay(read_journal(write_two_missions(tmp_path, ward, parse_coach("knowledge"))))
+    judged = replay.thoughts.judged
+    assert judged is not None
+    lines = plain(coach_rows(replay.thoughts, ward, columns))
+    for words in (
+        f"knows this room {judged.known[judged.room or '']:.2f}",
+        "knows of all 0.50",
+        *(f"{name} █" for name in judged.expected_ms),
+    ):
+        assert any(words in line for line in lines)
+    assert all(len(line.rstrip()) <= columns for line in lines)
+    pins = coach_pins(replay.thoughts, ward)
+    assert set(pins) == {room.label for room in ward.rooms}
 
 
 def test_on_the_time_line_a_victim_lost_is_never_hidden(tmp_path: Path, ward: Building) -> None:

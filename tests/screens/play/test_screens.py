@@ -255,10 +255,10 @@ async def test_home_enter_plays_and_choices_are_remembered(open_app: Open, tmp_p
         await press(pilot, "down", "right", "down", "right", "up", "up", "enter")
         mission = await until(pilot, MissionScreen)
         assert mission.live.run.mission.building == load_building("foundry")
-        assert (home.preferences.building, home.preferences.coach) == ("foundry", "static-1")
+        assert (home.preferences.building, home.preferences.coach) == ("foundry", "knowledge")
     async with open_app(AnaApp.show_home) as (_, pilot):
         home = await until(pilot, HomeScreen)
-        assert (home.preferences.building, home.preferences.coach) == ("foundry", "static-1")
+        assert (home.preferences.building, home.preferences.coach) == ("foundry", "knowledge")
 
 
 async def test_a_full_disk_ends_the_mission_with_a_message(
