@@ -27,6 +27,10 @@ from game.study.ledger import SlotTaken, ending_of
 SEED, PEOPLE = 5, 3
 DEFAULT = POPULATIONS["default"]
 
+needs_cluster = pytest.mark.skipif(
+    importlib.util.find_spec("distributed") is None, reason="the extra `cluster` is not installed"
+)
+
 
 def made(folder: Path, workers: Workers = here, people: int = PEOPLE) -> Path:
     for _ in simulate(folder, people, SEED, DEFAULT, workers):
@@ -51,9 +55,7 @@ def test_two_processes_write_the_same_bytes_as_one(study: Path, tmp_path: Path) 
     assert files(made(tmp_path / "study", partial(on_cores, jobs=2))) == files(study)
 
 
-@pytest.mark.skipif(
-    importlib.util.find_spec("distributed") is None, reason="the extra `cluster` is not installed"
-)
+@needs_cluster
 def test_a_cluster_writes_the_same_bytes(study: Path, tmp_path: Path) -> None:
     from distributed import LocalCluster
 
@@ -62,8 +64,8 @@ def test_a_cluster_writes_the_same_bytes(study: Path, tmp_path: Path) -> None:
         assert files(made(tmp_path / "study", workers)) == files(study)
 
 
+@needs_cluster
 def test_a_missing_scheduler_is_named(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
     with socket.socket() as unused:
         unused.bind(("127.0.0.1", 0))
         port = unused.getsockname()[1]

@@ -1,13 +1,15 @@
 # The reference numbers of this folder, by R: `make reference` computes them all again and fails when
 # one has moved; `make reference WRITE=1` writes them. Run from this folder.
-#
-# Debian: r-base-core r-cran-afex r-cran-emmeans r-cran-car r-cran-lmertest r-cran-psych
-#         r-cran-effectsize r-cran-bayesfactor r-cran-ordinal
 
-suppressPackageStartupMessages({
-  library(afex); library(emmeans); library(car); library(lmerTest); library(psych)
-  library(BayesFactor); library(effectsize); library(ordinal); library(jsonlite)
-})
+PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "jsonlite")
+absent <- PACKAGES[!vapply(PACKAGES, requireNamespace, logical(1), quietly = TRUE)]
+if (length(absent)) {
+  debian <- paste0("r-cran-", tolower(absent), collapse = " ")
+  cat("The reference needs R packages that are not here: ", paste(absent, collapse = ", "),
+      ".\nOn Debian and Ubuntu: sudo apt install ", debian, "\n", sep = "", file = stderr())
+  quit(status = 2)
+}
+suppressPackageStartupMessages(for (package in PACKAGES) library(package, character.only = TRUE))
 source("clustering.R")
 options(contrasts = c("contr.sum", "contr.poly"), digits = 15, warn = 1)
 emm_options(msg.interaction = FALSE, msg.nesting = FALSE)
