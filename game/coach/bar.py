@@ -16,18 +16,20 @@ from game.coach.acts import (
 )
 from game.coach.compliance import NOTHING_ASKED, STRICT_LEVELS, fits, reached, track
 from game.coach.instructions import Instruction, Pose, Scene, instruct
+from game.coach.instructions.told import ToldWay
 from game.world.building import Room
 from game.world.observation import Guidance, Observation
 
 
 @dataclass(frozen=True)
 class OnBar:
-    """The instruction on the bar: its number, when it was put there (mission ms), and the notice
-    that stands before it."""
+    """The instruction on the bar: its number, when it was put there (mission ms), the way that it
+    tells, and the notice that stands before it."""
 
     instruction: Instruction
     number: int
     at_ms: int
+    told: ToldWay
     notice: str = ""
 
 
@@ -62,7 +64,8 @@ class Bar:
         """Put up the instruction of `level` from `pose` to `goal`."""
         instruction = instruct(scene, pose, goal, level)
         self._number += 1
-        self.shown = OnBar(instruction, self._number, at_ms, notice)
+        told = ToldWay(scene, instruction)
+        self.shown = OnBar(instruction, self._number, at_ms, told, notice)
         self.open = True
         self._track = track(instruction, scene.settings.controls)
         distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)

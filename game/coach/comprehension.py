@@ -34,6 +34,7 @@ class ComprehensionLearner:
         self._goal: str | None = None
         self._position = building.start
         self._began_in: Room | None = None
+        self._together: frozenset[str] = frozenset()
         likelihood, beta, goals = preset.likelihood, preset.beta, dict(self._waiting)
         floodfills = building.terrain.floodfills
         table = building.terrain.shared(
@@ -45,6 +46,7 @@ class ComprehensionLearner:
     def goal_set(self, goal: str | None, position: Cell) -> None:
         """The coach leads to `goal` from now on; None for nowhere."""
         self._goal = goal
+        self._together = self._sharing_the_room(goal)
         self._position = position
         self._began_in = self._building.room_at(position)
         self._filter.restart(position)
@@ -52,8 +54,10 @@ class ComprehensionLearner:
     def observe(self, event: MissionEvent, observation: Observation, shown: OnBar | None) -> None:
         match event:
             case Acted(position=position):
+                told = shown.told if shown is not None and self._preset.told_way else None
+                follows = told is not None and told.follows(self._position, position)
+                self._filter.moved(position, self._together if follows else ())
                 self._position = position
-                self._filter.moved(position)
             case Rescued(victim=victim) | Expired(victim=victim):
                 self._waiting.pop(victim, None)
 
@@ -63,10 +67,17 @@ class ComprehensionLearner:
         comprehension = self._comprehension(goal) if goal in self._waiting else None
         return {Component.BELIEF: replace(model.belief, comprehension=comprehension)}
 
+    def _sharing_the_room(self, goal: str | None) -> frozenset[str]:
+        """The goal, and every victim in its room, waiting or not."""
+        if goal is None:
+            return frozenset()
+        room = self._room_of[goal]
+        return frozenset(v for v, r in self._room_of.items() if v == goal or (room and r is room))
+
     def _comprehension(self, goal: str) -> Comprehension:
         preset, room = self._preset, self._room_of[goal]
-        together = [v for v in self._waiting if room is not None and self._room_of[v] is room]
-        members = together if room and preset.aggregation == "room" else [goal]
+        together = [victim for victim in self._waiting if victim in self._together]
+        members = together if preset.aggregation == "room" else [goal]
         if preset.prior_mass is None:
             prior = uniform_prior(self._waiting)
         else:
@@ -106,10 +117,10 @@ class ThresholdInfluence:
 
 
 def evaluation_record(
-    comprehension: Comprehension, preset: Preset, at_ms: int
+    comprehension: Comprehension, thresholds: tuple[float, float], at_ms: int
 ) -> PosteriorEvaluated:
-    """What the journal keeps of an evaluation."""
-    lower_below, raise_above = preset.lower_below, preset.raise_above
+    """What the journal keeps of an evaluation by these thresholds."""
+    lower_below, raise_above = thresholds
     said = verdict(comprehension.value, lower_below, raise_above)
     return PosteriorEvaluated(
         at_ms,

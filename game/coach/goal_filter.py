@@ -79,14 +79,20 @@ class GoalFilter:
         self._window: deque[Step] = deque()
         self._sums = [0] * len(self._reachable)
 
-    def moved(self, position: Cell) -> None:
-        """The walker is at `position` now; a pause changes nothing.
+    def moved(self, position: Cell, granted: Collection[str] = ()) -> None:
+        """The walker is at `position` now; a pause changes nothing. For the goals `granted` the
+        move counts as one that came nearer, at the factor 1 of `cost_difference`.
 
         Raises ValueError when that is not beside where it was.
         """
         if position == self._position:
             return
         step = self._table.step(self._position, position)
+        if granted:
+            step = tuple(
+                0 if goal in granted else factor
+                for goal, factor in zip(self._table.goals, step, strict=True)
+            )
         self._position = position
         self._window.append(step)
         if self._window_moves is None or len(self._window) <= self._window_moves:

@@ -20,6 +20,8 @@ from game.world.events import (
     Acted,
     Action,
     Expired,
+    LevelAsked,
+    LevelWish,
     MissionEvent,
     Outcome,
     Rescued,
@@ -39,9 +41,10 @@ _NOTICES: dict[GoalReason, str] = {
 """What is said of a goal that is given up before its victim was treated."""
 
 State = TypeVar("State")
-Occasion = Literal["goal", "step", "completed", "misstep", "lost", "time"]
+Occasion = Literal["goal", "step", "completed", "misstep", "lost", "asked", "time"]
 """When a coach may choose: a goal has been set; the rescuer has moved; an instruction has been
-carried out; a misstep was made; the time that the coach asked for has come."""
+carried out; a misstep was made; the rescuer is lost, or has asked for other words; the time that
+the coach asked for has come."""
 
 
 class Guide(ABC, Generic[State]):
@@ -91,6 +94,9 @@ class Guide(ABC, Generic[State]):
         is what should be spoken from here on, and return what the journal should keep of it."""
         return []
 
+    def asked(self, want: LevelWish) -> None:
+        """The rescuer has asked for simpler or shorter words; `choose` is called next."""
+
     def goal_set(self, goal: str, position: Cell) -> None:
         """The rescuer, who stands at `position`, is led to `goal` from now on."""
 
@@ -126,6 +132,11 @@ class Guide(ABC, Generic[State]):
                 records += self._rescued(event.at_ms, pose, victim)
             case Expired(victim=victim):
                 records += self._expired(event.at_ms, pose, victim)
+            case LevelAsked(want=want):
+                self.asked(want)
+                if self.bar.shown is not None:
+                    records += self._choose("asked", event.at_ms, pose)
+                    records += self._follow_level(event.at_ms, pose)
         return records
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:

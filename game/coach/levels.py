@@ -7,11 +7,17 @@ from typing import Literal
 
 from game.coach.acts import Level
 from game.coach.presets import Preset
+from game.world.events import LevelWish
 
 Verdict = Literal["lower", "keep", "raise"]
 
 DECIMALS = 9
 """Thresholds decide on rounded values, so that the last bit of exp() decides nothing."""
+
+SHIFT, MOST_SHIFT = 0.1, 0.2
+"""By how much the level key shifts both thresholds, and how far at most."""
+LEAST = 0.05
+"""No threshold lies nearer to 0 or 1."""
 
 
 def verdict(comprehension: float, lower_below: float, raise_above: float) -> Verdict:
@@ -27,23 +33,30 @@ class LevelState:
     """The level in force, and what the evaluations within the goal have said so far.
 
     `latest` is the last verdict, `run` how many evaluations in a row gave it; `went_down` whether
-    one that counted asked for a lower level, even where there is none below.
+    one that counted asked for a lower level, even where there is none below. `shift` is added to
+    both thresholds: above 0 for a rescuer who has asked for simpler words.
     """
 
     level: Level
     latest: Verdict = "keep"
     run: int = 0
     went_down: bool = False
+    shift: float = 0.0
 
     @classmethod
     def first(cls, preset: Preset) -> LevelState:
         return cls(preset.first_level)
 
+    def thresholds(self, preset: Preset) -> tuple[float, float]:
+        """Below the first the level goes down, above the second up."""
+        low, high = preset.lower_below + self.shift, preset.raise_above + self.shift
+        return max(LEAST, low), min(1 - LEAST, high)
+
     def evaluated(
         self, preset: Preset, comprehension: float, *, in_goal_room: bool = False
     ) -> LevelState:
         """The state after an evaluation that carries evidence."""
-        said = verdict(comprehension, preset.lower_below, preset.raise_above)
+        said = verdict(comprehension, *self.thresholds(preset))
         run = self.run + 1 if said == self.latest else 1
         heard = replace(self, latest=said, run=run)
         if run < preset.agreement:
@@ -54,19 +67,32 @@ class LevelState:
             return replace(heard, level=level)
         if said == "keep" or (said == "raise" and preset.raise_only_at_goal_end):
             return heard
-        return LevelState(_moved(self.level, said), went_down=said == "lower")
+        return self._at(_moved(self.level, said), went_down=said == "lower")
 
-    def goal_ended(self, preset: Preset, *, rescued: bool) -> LevelState:
-        """The state with which the next goal begins: what the last one said is forgotten."""
-        if rescued and preset.after_rescue == "first_level":
-            return LevelState.first(preset)
+    def asked(self, want: LevelWish) -> LevelState:
+        """The state after the rescuer has asked for other words."""
+        shift = self.shift + (SHIFT if want == "simpler" else -SHIFT)
+        return replace(self, shift=round(min(MOST_SHIFT, max(-MOST_SHIFT, shift)), DECIMALS))
+
+    def given_up(self) -> LevelState:
+        """The state with which the next goal begins after one that was given up: the level stays,
+        and what was said is forgotten."""
+        return self._at(self.level)
+
+    def rescued(self, preset: Preset) -> LevelState:
+        """The state with which the next goal begins after a rescue."""
+        if preset.after_rescue == "first_level":
+            return self._at(preset.first_level)
         rises = (
             preset.raise_only_at_goal_end
             and self.latest == "raise"
             and self.run >= preset.agreement
             and not self.went_down
         )
-        return LevelState(_moved(self.level, "raise") if rises else self.level)
+        return self._at(_moved(self.level, "raise") if rises else self.level)
+
+    def _at(self, level: Level, *, went_down: bool = False) -> LevelState:
+        return LevelState(level, went_down=went_down, shift=self.shift)
 
 
 _ABSOLUTE = {"lower": Level.C1, "keep": Level.C2, "raise": Level.C3}

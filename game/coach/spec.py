@@ -17,7 +17,7 @@ from game.errors import AnaError, choose_from
 
 OWN = "own"
 DEFAULT_LEVEL = Level.C2
-DEFAULT_PRESET = "calibrated"
+DEFAULT_PRESET = "floodfill"
 
 _GIVE: dict[Choice, str] = {
     "level": "give a level",

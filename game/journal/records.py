@@ -24,6 +24,9 @@ SCHEMA_VERSION = 2
 RULES_VERSION = 2
 """Changes whenever the same timed actions may give another mission or another instruction."""
 
+RELEASES = {1: "a version before 0.1.0"}
+"""Which `ana` verifies journals of earlier rules."""
+
 Phase = Literal[
     "session",
     "preflight",

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from game.coach.api import Coach
 from game.journal.records import RunRecord
-from game.world.events import Action, MissionEvent
+from game.world.events import Action, LevelAsked, LevelWish, MissionEvent
 from game.world.mission import Due, Mission, Order
 from game.world.observation import Observation
 
@@ -82,6 +82,16 @@ class MissionRun:
         with self._recording():
             self._advance(at_ms)
             self._act(action, at_ms, pressed_ms)
+
+    def ask_level(self, want: LevelWish, at_ms: int) -> None:
+        """The rescuer asks the coach for simpler or shorter words. Raises ValueError where the
+        rules do not allow it."""
+        if not self.mission.settings.level_key:
+            raise ValueError("the level key is not allowed in this mission")
+        with self._recording():
+            self._advance(at_ms)
+            if not self.ended:
+                self._tell([LevelAsked(at_ms, want)])
 
     @contextmanager
     def _recording(self) -> Iterator[None]:

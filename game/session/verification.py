@@ -23,10 +23,10 @@ from game.journal.reader import (
     parse_journal,
     read_file,
 )
-from game.journal.records import RULES_VERSION, RunRecord
+from game.journal.records import RELEASES, RULES_VERSION, RunRecord
 from game.session.playing import CoachBuilder, assemble, preset_of
 from game.session.run import MissionRun
-from game.world.events import Acted
+from game.world.events import Acted, LevelAsked
 from game.world.reading import parse_building
 
 TOLERANCE = 1e-9
@@ -125,8 +125,11 @@ def _unplayable(mission: MissionHistory) -> Difference | None:
     """The field of `mission_started` that makes an identical replay impossible, if any."""
     started = mission.started
     sha256_of_text = sha256(started.building_text.encode()).hexdigest()
-    must_agree = (
-        ("rules_version", started.rules_version, RULES_VERSION),
+    if started.rules_version != RULES_VERSION:
+        release = RELEASES.get(started.rules_version, "another version")
+        wanted = f"{RULES_VERSION}; {release} verifies these"
+        return Difference(mission.line, "rules_version", str(started.rules_version), wanted)
+    must_agree: tuple[tuple[str, Any, Any], ...] = (
         ("building_sha256", started.building_sha256, sha256_of_text),
         ("preset", started.preset, preset_of(started.coach)),
         ("assumed", started.assumed, assumed_of(started.coach)),
@@ -160,9 +163,11 @@ def _play(run: MissionRun, mission: MissionHistory) -> Difference | None:
             line, record = happening
             if isinstance(record, Acted):
                 run.act(record.action, record.at_ms, record.pressed_ms)
+            elif isinstance(record, LevelAsked):
+                run.ask_level(record.want, record.at_ms)
         run.advance(mission.until_ms)
     except ValueError as error:
-        return Difference(line, "acted", str(error), "an action that can be carried out")
+        return Difference(line, type_of(record), str(error), "what can be carried out")
     return None
 
 

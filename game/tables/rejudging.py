@@ -73,8 +73,7 @@ def levels_under(
     for at_ms, what in _in_order(judged, ends):
         before = state.level
         if isinstance(what, GoalEnd):
-            rose = state.goal_ended(rule, rescued=True)
-            state = rose if what.rescued else LevelState(before)
+            state = state.rescued(rule) if what.rescued else state.given_up()
         else:
             state = state.evaluated(rule, what.comprehension)
         if state.level is not before:

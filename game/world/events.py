@@ -6,6 +6,7 @@ Events are tagged structs: the journal writes them as they are, so there is one 
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Literal
 
 import msgspec
 
@@ -38,6 +39,10 @@ class Outcome(StrEnum):
     """Triage with no waiting victim in reach."""
     TOO_LATE = "too_late"
     """Triage of a red victim that would expire before its treatment could end."""
+
+
+LevelWish = Literal["simpler", "shorter"]
+"""What the level key asks for: words that ask for less knowledge, or that say more in one."""
 
 
 class Event(msgspec.Struct, frozen=True, tag_field="type"):
@@ -78,8 +83,16 @@ class Expired(Event, frozen=True, tag="expired"):
     victim: str
 
 
+class LevelAsked(Event, frozen=True, tag="level_asked"):
+    """The rescuer asked the coach, by the level key, for simpler or for shorter words."""
+
+    want: LevelWish
+
+
 class MissionEnded(Event, frozen=True, tag="mission_ended"):
     rescued: int
 
 
-MissionEvent = Acted | TreatmentStarted | TreatmentBroken | Rescued | Expired | MissionEnded
+MissionEvent = (
+    Acted | TreatmentStarted | TreatmentBroken | Rescued | Expired | LevelAsked | MissionEnded
+)

@@ -31,6 +31,8 @@ class MissionSettings:
     """False in a study, whose measure is the number rescued."""
     allow_pause: bool = True
     """False in a study."""
+    level_key: bool = False
+    """Whether the rescuer may ask the coach for simpler or shorter words."""
 
     def __post_init__(self) -> None:
         for name, low, high in _RANGES:

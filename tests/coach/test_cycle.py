@@ -192,10 +192,10 @@ def test_released_is_certain_in_the_goals_room() -> None:
 
 def test_the_record_of_an_evaluation() -> None:
     comprehension = Comprehension(GOAL, {GOAL: 0.2, OTHER: 0.8}, 0.2, 9, True, False)
-    record = evaluation_record(comprehension, CALIBRATED, 3_000)
+    record = evaluation_record(comprehension, (0.3, 0.8), 3_000)
     assert (record.verdict, record.comprehension, record.moves) == ("lower", 0.2, 9)
     assert (record.lower_below, record.raise_above) == (0.3, 0.8)
-    blind = evaluation_record(replace(comprehension, evidence=False), CALIBRATED, 3_000)
+    blind = evaluation_record(replace(comprehension, evidence=False), (0.3, 0.8), 3_000)
     assert blind == msgspec.structs.replace(record, verdict="none")
 
 

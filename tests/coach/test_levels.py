@@ -69,33 +69,33 @@ def test_literal_is_algorithm_1(comprehensions: list[float]) -> None:
 def test_calibrated_goes_up_only_at_a_goals_end() -> None:
     state = LevelState.first(CALIBRATED).evaluated(CALIBRATED, 0.9).evaluated(CALIBRATED, 0.9)
     assert state.level is Level.C2
-    assert state.goal_ended(CALIBRATED, rescued=True) == LevelState(Level.C3)
+    assert state.rescued(CALIBRATED) == LevelState(Level.C3)
 
 
 def test_calibrated_stays_down_when_something_went_down_within_the_goal() -> None:
     state = LevelState(Level.C3).evaluated(CALIBRATED, 0.1)
     assert state.level is Level.C2
-    state = state.evaluated(CALIBRATED, 0.9).goal_ended(CALIBRATED, rescued=True)
+    state = state.evaluated(CALIBRATED, 0.9).rescued(CALIBRATED)
     assert state == LevelState(Level.C2)
-    assert state.evaluated(CALIBRATED, 0.9).goal_ended(CALIBRATED, rescued=True).level is Level.C3
+    assert state.evaluated(CALIBRATED, 0.9).rescued(CALIBRATED).level is Level.C3
 
 
 def test_a_verdict_that_cannot_go_lower_still_bars_the_rise() -> None:
     state = LevelState(Level.C1).evaluated(CALIBRATED, 0.1).evaluated(CALIBRATED, 0.9)
-    assert state.goal_ended(CALIBRATED, rescued=True).level is Level.C1
+    assert state.rescued(CALIBRATED).level is Level.C1
 
 
 def test_calibrated_rises_on_what_was_said_last() -> None:
     state = LevelState(Level.C2).evaluated(CALIBRATED, 0.9).evaluated(CALIBRATED, 0.5)
-    assert state.goal_ended(CALIBRATED, rescued=True).level is Level.C2
-    assert LevelState(Level.C2).goal_ended(CALIBRATED, rescued=True).level is Level.C2
+    assert state.rescued(CALIBRATED).level is Level.C2
+    assert LevelState(Level.C2).rescued(CALIBRATED).level is Level.C2
 
 
 def test_agreement_counts_at_a_goals_end_too() -> None:
     chosen = msgspec.structs.replace(CALIBRATED, agreement=2)
     once = LevelState(Level.C2).evaluated(chosen, 0.9)
-    assert once.goal_ended(chosen, rescued=True).level is Level.C2
-    assert once.evaluated(chosen, 0.9).goal_ended(chosen, rescued=True).level is Level.C3
+    assert once.rescued(chosen).level is Level.C2
+    assert once.evaluated(chosen, 0.9).rescued(chosen).level is Level.C3
 
 
 def test_fig10_needs_two_in_a_row_for_every_change() -> None:
@@ -104,7 +104,7 @@ def test_fig10_needs_two_in_a_row_for_every_change() -> None:
 
 
 def test_fig10_counts_afresh_at_each_goal() -> None:
-    state = LevelState(Level.C2).evaluated(FIG10, 0.9).goal_ended(FIG10, rescued=True)
+    state = LevelState(Level.C2).evaluated(FIG10, 0.9).rescued(FIG10)
     state = state.evaluated(FIG10, 0.9)
     assert state.level is Level.C2
     assert state.evaluated(FIG10, 0.9).level is Level.C3
@@ -121,8 +121,8 @@ def test_released_depends_on_the_latest_evaluation_alone(
     fresh = LevelState.first(RELEASED).evaluated(RELEASED, p, in_goal_room=inside)
     assert state.level is fresh.level
     assert (state.level is Level.C3) == (inside and round(p, 9) > 0.8)
-    assert state.goal_ended(RELEASED, rescued=True).level is Level.C2
-    assert state.goal_ended(RELEASED, rescued=False).level is state.level
+    assert state.rescued(RELEASED).level is Level.C2
+    assert state.given_up().level is state.level
 
 
 @given(
@@ -136,9 +136,7 @@ def test_no_step_preset_moves_more_than_one_level_at_once(
     state = LevelState.first(chosen)
     for p in stream:
         after = (
-            state.goal_ended(chosen, rescued=True)
-            if p is None
-            else state.evaluated(chosen, p, in_goal_room=True)
+            state.rescued(chosen) if p is None else state.evaluated(chosen, p, in_goal_room=True)
         )
         if chosen.rule == "step":
             assert abs(after.level - state.level) <= 1

@@ -14,6 +14,7 @@ from game.coach.instructions import Pose
 from game.coach.kinds.ana_by_belief import AnaByBelief
 from game.coach.levels import LevelState
 from game.coach.presets import Preset
+from game.world.events import LevelWish
 from game.world.geometry import Cell
 from game.world.observation import Observation
 
@@ -55,16 +56,18 @@ class Ana(Guide[LevelState]):
 
     def goal_ended(self, at_ms: int, *, rescued: bool) -> list[CoachRecord]:
         state = self.state
-        ended = state.goal_ended(self._preset, rescued=True) if rescued else LevelState(state.level)
-        return self._enter(ended, at_ms)
+        return self._enter(state.rescued(self._preset) if rescued else state.given_up(), at_ms)
+
+    def asked(self, want: LevelWish) -> None:
+        self.state = self.state.asked(want)
 
     def choose(self, occasion: Occasion, at_ms: int, pose: Pose, goal: str) -> list[CoachRecord]:
-        if occasion not in _OCCASIONS[self._preset.evaluate]:
+        if occasion not in (*_OCCASIONS[self._preset.evaluate], "asked"):
             return []
         comprehension = self.cycle.evaluate().belief.comprehension
         assert comprehension is not None
         return [
-            evaluation_record(comprehension, self._preset, at_ms),
+            evaluation_record(comprehension, self.state.thresholds(self._preset), at_ms),
             *self._enter(self.cycle.adapt(self.state), at_ms),
         ]
 
