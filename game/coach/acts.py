@@ -10,7 +10,10 @@ import msgspec
 from game.world.geometry import Cell, Heading
 
 GoalReason = Literal["start", "rescued", "expired", "too_late", "strayed", "other_rescued"]
-IssueReason = Literal["goal", "completed", "level", "off_path", "misstep", "heeded", "resumed"]
+IssueReason = Literal[
+    "goal", "completed", "level", "off_path", "restated", "misstep", "heeded", "resumed", "lost"
+]
+LostBy = Literal["standing", "wandering"]
 
 
 class Level(IntEnum):
@@ -85,6 +88,13 @@ class Misstep(CoachAct, frozen=True, tag="misstep"):
     number: int
     level: Level
     excess: int
+
+
+class LostNoticed(CoachAct, frozen=True, tag="lost_noticed"):
+    """The rescuer has not come nearer for too long under instruction `number`."""
+
+    number: int
+    by: LostBy
 
 
 class Disobeyed(CoachAct, frozen=True, tag="disobeyed"):
@@ -167,6 +177,7 @@ CoachRecord = (
     | NoticeTakenDown
     | InstructionCompleted
     | Misstep
+    | LostNoticed
     | Disobeyed
     | PosteriorEvaluated
     | LevelChanged

@@ -11,6 +11,7 @@ from game.coach.acts import (
     InstructionIssued,
     IssueReason,
     Level,
+    LostBy,
     Misstep,
     NoticeTakenDown,
 )
@@ -23,8 +24,8 @@ from game.world.observation import Guidance, Observation
 
 @dataclass(frozen=True)
 class OnBar:
-    """The instruction on the bar: its number, when it was put there (mission ms), the way that it
-    tells, and the notice that stands before it."""
+    """The instruction on the bar: its number, when it was put there (mission ms), the notice that
+    came with it, and the way that it tells."""
 
     instruction: Instruction
     number: int
@@ -48,6 +49,8 @@ class Bar:
         self._track: frozenset[Pose] = frozenset()
         self._compliance = NOTHING_ASKED
         self._treated_instead: set[str] = set()
+        self._left: int | None = None
+        self._explored = 0
 
     # --- putting up and taking down --------------------------------------------------------------
 
@@ -61,15 +64,24 @@ class Bar:
         reason: IssueReason,
         notice: str = "",
     ) -> InstructionIssued:
-        """Put up the instruction of `level` from `pose` to `goal`."""
+        """Put up the instruction of `level` from `pose` to `goal`. `restated` tells a rescuer who
+        is off the way the same again from there, and changes neither the notice nor the clock."""
         instruction = instruct(scene, pose, goal, level)
+        shown_level = instruction.shown_level
+        distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)
+        if reason == "restated":
+            notice = self.guidance.notice
+            self._compliance = self._compliance.restated(shown_level, distance)
+        else:
+            self._compliance = self._compliance.issued(
+                shown_level, distance, at_ms, _opening(instruction), notice
+            )
         self._number += 1
         told = ToldWay(scene, instruction)
         self.shown = OnBar(instruction, self._number, at_ms, told, notice)
         self.open = True
+        self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)
-        distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)
-        self._compliance = self._compliance.issued(instruction.shown_level, distance)
         self.guidance = Guidance(instruction.text, notice)
         return InstructionIssued(
             at_ms,
@@ -101,11 +113,12 @@ class Bar:
 
     # --- what a step means -----------------------------------------------------------------------
 
-    def walked(self, at_ms: int, distance: int) -> NoticeTakenDown | None:
+    def walked(self, at_ms: int, distance: int, observation: Observation) -> NoticeTakenDown | None:
         """The rescuer acted and is `distance` from the goal now; a notice that has clearly been
         understood goes."""
         assert self.shown is not None
-        self._compliance = self._compliance.acted(distance)
+        nearer = self._comes_nearer(self.shown.told, observation)
+        self._compliance = self._compliance.acted(distance, at_ms, nearer=nearer)
         if not (self._compliance.heeded and self.guidance.notice):
             return None
         self.guidance = Guidance(self.shown.instruction.text)
@@ -121,9 +134,19 @@ class Bar:
         return self.shown is not None and self.shown.instruction.shown_level in STRICT_LEVELS
 
     @property
+    def astray(self) -> bool:
+        """Whether the last step led too far away, be it a misstep or not yet to be blamed."""
+        return self._compliance.astray
+
+    @property
     def misstep(self) -> bool:
         """Whether the last step was a misstep."""
         return self._compliance.misstep
+
+    @property
+    def may_notice(self) -> bool:
+        """Whether the last notice has been there long enough to be read."""
+        return self._compliance.may_notice
 
     def correct(self, at_ms: int) -> list[CoachRecord]:
         """Count the misstep, and the disobedience where it is one."""
@@ -131,10 +154,23 @@ class Bar:
         compliance, number = self._compliance, self._number
         level = self.shown.instruction.shown_level
         records: list[CoachRecord] = [Misstep(at_ms, number, level, compliance.excess)]
-        if compliance.disobeys(at_ms):
+        if compliance.disobeys:
             records.append(Disobeyed(at_ms, number, "repeat_misstep"))
-        self._compliance = compliance.corrected(at_ms)
+        self._compliance = compliance.corrected()
         return records
+
+    @property
+    def lost_at_ms(self) -> int | None:
+        """When the rescuer will be lost if there is no progress until then; None while there is
+        nothing to carry out."""
+        return self._compliance.lost_at_ms if self.open else None
+
+    @property
+    def lost_by(self) -> LostBy:
+        """How a rescuer who is lost has spent the time: standing still, or walking about."""
+        compliance = self._compliance
+        stood = compliance.at_ms <= compliance.nearer_ms
+        return "standing" if stood else "wandering"
 
     def asks_for(self, scene: Scene, victim: str, observation: Observation) -> bool:
         """Whether treating `victim` is what the words ask for."""
@@ -167,6 +203,16 @@ class Bar:
             scene, room, observation
         )
 
+    def _comes_nearer(self, told: ToldWay, observation: Observation) -> bool:
+        """Whether there is less of the told way left than ever, or more seen of the room in which
+        the victim has to be looked for."""
+        left, before = told.left(observation.position), self._left
+        if left is not None and (before is None or left < before):
+            self._left = left
+            return True
+        explored, self._explored = self._explored, observation.explored
+        return explored != observation.explored and told.searches(observation.position)
+
     def _approaching(self, scene: Scene, room: Room | None, observation: Observation) -> bool:
         assert self.shown is not None
         instruction = self.shown.instruction
@@ -175,3 +221,14 @@ class Bar:
         goal = scene.victim(instruction.goal).cell
         found = any(v.cell == goal for v in (*observation.victims, *observation.remembered))
         return found and scene.building.room_at(observation.position) is room
+
+
+def _opening(instruction: Instruction) -> str:
+    """The words that say what to do next: as far as the first sentence that is no mere turn."""
+    turns = 0
+    for action, _ in instruction.tuples:
+        if action != "Turn":
+            break
+        turns += 1
+    sentences = instruction.text.split(". ")
+    return ". ".join(sentences[: turns + 1])

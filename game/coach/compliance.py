@@ -1,7 +1,8 @@
-"""Missteps and disobedience: how well the rescuer does what the instruction says.
+"""Missteps, disobedience and being lost: how well the rescuer does what the instruction says.
 
-Pure state: the coach tells what happened, and asks what it means. Both words are defined by the
-level that is shown, since only what was said can be done wrong.
+Pure state: the coach tells what happened and when, and asks what it means. Missteps and
+disobedience are defined by the level that is shown, since only what was said can be done wrong. All
+times are mission milliseconds.
 """
 
 from __future__ import annotations
@@ -21,9 +22,18 @@ MISSTEP_EXCESS = {Level.C1: 1, Level.C2: 3, Level.C3: 8}
 HEEDED_CELLS = 3
 """After so many cells the right way a notice has been understood."""
 
-READING_MS = 2_000
-"""How long a rescuer may take to act on a correction. At C1 each cell too far is a misstep: without
-it, a key held for a second would be disobedience five times over."""
+READING_MS, READING_MS_PER_LETTER = 400, 42
+"""How soon the words that say what to do next can have been read: 238 words a minute (Brysbaert, 2019, Journal of Memory and
+Language 109), after a reaction. Until then the rescuer still acts on what was there before, and no
+step is a misstep."""
+
+NOTICE_MS, NOTICE_MS_PER_LETTER = 2_000, 60
+"""How long a notice is left to be read, at a pace that suits anybody, before another may take its
+place."""
+
+LOST_MS = 10_000
+"""A rescuer who has not come any nearer for so long is lost, whether standing, pacing or going
+round; longer than anybody needs to read the longest instruction at half the usual speed."""
 
 STRICT_LEVELS = frozenset({Level.C1, Level.C2})
 """The levels at which a misstep that follows another is disobedience: what they say can be done
@@ -34,34 +44,64 @@ by anybody, whereas C3 asks for knowledge."""
 class Compliance:
     """The walk since an instruction was issued at `level` (the shown one).
 
-    `most`, `least` and `distance` are the largest cost-to-go since, the smallest and the present
-    one, `rising` whether the last action raised it; `warned_ms` is when a strict misstep was
-    corrected that counts, since an instruction was completed.
+    `most`, `least` and `distance` are the largest cost-to-go since then, the smallest and the
+    present one; `rising` is whether the last action raised it, which happened at `at_ms`. Until
+    `read_ms` the words cannot have been read; until `notice_ms` no notice may replace the last;
+    `nearer_ms` is when the rescuer last came nearer, or was told something new. `warned` is whether
+    a strict misstep was corrected since an instruction was completed.
     """
 
     level: Level
     most: int
     least: int
     distance: int
+    at_ms: int = 0
     rising: bool = False
-    warned_ms: int | None = None
+    read_ms: int = 0
+    notice_ms: int = 0
+    nearer_ms: int = 0
+    warned: bool = False
 
-    def issued(self, level: Level, distance: int) -> Compliance:
-        """Another instruction stands on the bar."""
-        return Compliance(level, distance, distance, distance, warned_ms=self.warned_ms)
+    def issued(
+        self, level: Level, distance: int, at_ms: int, opening: str, notice: str = ""
+    ) -> Compliance:
+        """Another instruction stands on the bar; `opening` are the words that say what to do next."""
+        read_ms = at_ms + READING_MS + READING_MS_PER_LETTER * (len(opening) + len(notice))
+        notice_ms = self.notice_ms
+        if notice:
+            notice_ms = at_ms + NOTICE_MS + NOTICE_MS_PER_LETTER * len(notice)
+        return Compliance(
+            level,
+            most=distance,
+            least=distance,
+            distance=distance,
+            at_ms=at_ms,
+            read_ms=read_ms,
+            notice_ms=notice_ms,
+            nearer_ms=at_ms,
+            warned=self.warned,
+        )
+
+    def restated(self, level: Level, distance: int) -> Compliance:
+        """The same way is told from where the rescuer stands: nothing that need be read first, and
+        no progress."""
+        return replace(self, level=level, most=distance, least=distance, distance=distance)
 
     def completed(self) -> Compliance:
-        return replace(self, warned_ms=None)
+        return replace(self, warned=False)
 
-    def acted(self, distance: int) -> Compliance:
-        """After a move, bump or turn that leaves `distance` cells to go."""
-        rising = distance > self.distance
+    def acted(self, distance: int, at_ms: int, *, nearer: bool = False) -> Compliance:
+        """After a move, bump or turn at `at_ms` that leaves `distance` cells to go. `nearer` is
+        whether it was progress on the way that was told, even if the distance says otherwise."""
+        progress = nearer or distance < self.least
         return replace(
             self,
             most=max(self.most, distance),
             least=min(self.least, distance),
             distance=distance,
-            rising=rising,
+            at_ms=at_ms,
+            rising=distance > self.distance,
+            nearer_ms=at_ms if progress else self.nearer_ms,
         )
 
     @property
@@ -69,24 +109,39 @@ class Compliance:
         return self.distance - self.least
 
     @property
-    def misstep(self) -> bool:
-        """Whether the last action was a misstep."""
+    def astray(self) -> bool:
+        """Whether the last action led too far away."""
         return self.rising and self.excess >= MISSTEP_EXCESS[self.level]
 
-    def disobeys(self, at_ms: int) -> bool:
-        """Whether this misstep, at `at_ms`, is disobedience (`repeat_misstep`)."""
-        strict = self.misstep and self.level in STRICT_LEVELS
-        return strict and self.warned_ms is not None and at_ms - self.warned_ms >= READING_MS
+    @property
+    def misstep(self) -> bool:
+        """Whether the last action was a misstep: too far away, though the words could be read."""
+        return self.astray and self.at_ms >= self.read_ms
+
+    @property
+    def may_notice(self) -> bool:
+        """Whether the last notice has been there long enough to be read."""
+        return self.at_ms >= self.notice_ms
+
+    @property
+    def disobeys(self) -> bool:
+        """Whether this misstep is disobedience (`repeat_misstep`). Those made while a notice is
+        still being read belong to the one that it is about."""
+        return self.misstep and self.warned and self.may_notice and self.level in STRICT_LEVELS
 
     @property
     def heeded(self) -> bool:
         """Whether the rescuer clearly does what was asked: a notice may go."""
         return self.most - self.distance >= HEEDED_CELLS
 
-    def corrected(self, at_ms: int) -> Compliance:
-        """The misstep has been noted at `at_ms`. Those within `READING_MS` belong to it."""
-        counts = self.warned_ms is None or self.disobeys(at_ms)
-        return replace(self, warned_ms=at_ms) if counts and self.level in STRICT_LEVELS else self
+    @property
+    def lost_at_ms(self) -> int:
+        """When the rescuer will be lost, if there is no progress until then."""
+        return self.nearer_ms + LOST_MS
+
+    def corrected(self) -> Compliance:
+        """The misstep has been noted."""
+        return replace(self, warned=self.warned or self.level in STRICT_LEVELS)
 
 
 NOTHING_ASKED = Compliance(Level.C3, 0, 0, 0)

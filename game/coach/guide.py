@@ -7,7 +7,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Generic, Literal, TypeVar
 
-from game.coach.acts import CoachRecord, GoalReason, GoalSet, IssueReason, Level, NothingLeft
+from game.coach.acts import (
+    CoachRecord,
+    GoalReason,
+    GoalSet,
+    IssueReason,
+    Level,
+    LostBy,
+    LostNoticed,
+    NothingLeft,
+)
 from game.coach.api import Briefing
 from game.coach.bar import Bar
 from game.coach.belief import Belief, belief_change
@@ -40,11 +49,17 @@ _NOTICES: dict[GoalReason, str] = {
 }
 """What is said of a goal that is given up before its victim was treated."""
 
+_WHEN_LOST: dict[LostBy, str] = {
+    "standing": "Take this way now.",
+    "wandering": "You are not getting closer.",
+}
+"""What is said to a rescuer who is lost, before the way is told again from there."""
+
 State = TypeVar("State")
 Occasion = Literal["goal", "step", "completed", "misstep", "lost", "asked", "time"]
 """When a coach may choose: a goal has been set; the rescuer has moved; an instruction has been
-carried out; a misstep was made; the rescuer is lost, or has asked for other words; the time that
-the coach asked for has come."""
+carried out; a misstep was made; the rescuer has not come nearer for too long, or has asked for
+other words; the time that the coach asked for has come."""
 
 
 class Guide(ABC, Generic[State]):
@@ -85,7 +100,7 @@ class Guide(ABC, Generic[State]):
         return self.briefing.settings.pace_ms
 
     @property
-    def next_evaluation_ms(self) -> int | None:
+    def next_choice_ms(self) -> int | None:
         """When `choose` is to be called for the occasion `time`; None for never."""
         return None
 
@@ -139,11 +154,21 @@ class Guide(ABC, Generic[State]):
                     records += self._follow_level(event.at_ms, pose)
         return records
 
-    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
+    @property
+    def next_evaluation_ms(self) -> int | None:
         if self.bar.shown is None:
-            return []
+            return None
+        times = (self.next_choice_ms, self.bar.lost_at_ms)
+        return min((at_ms for at_ms in times if at_ms is not None), default=None)
+
+    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
         pose = Pose(observation.position, observation.heading)
-        return [*self._choose("time", at_ms, pose), *self._follow_level(at_ms, pose)]
+        records: list[CoachRecord] = []
+        if self.next_choice_ms == at_ms:
+            records += [*self._choose("time", at_ms, pose), *self._follow_level(at_ms, pose)]
+        if self.bar.lost_at_ms == at_ms:
+            records += self._lost(at_ms, pose)
+        return records
 
     def _belief_since(self, before: Belief, at_ms: int) -> list[CoachRecord]:
         change = belief_change(before, self.cycle.model.belief.state, at_ms)
@@ -163,7 +188,7 @@ class Guide(ABC, Generic[State]):
             return records + self._give_up(at_ms, pose, "too_late")
         if event.action is Action.TRIAGE:
             return records + self._follow_level(at_ms, pose)
-        taken_down = self.bar.walked(at_ms, self.lead.walked(pose.cell))
+        taken_down = self.bar.walked(at_ms, self.lead.walked(pose.cell), observation)
         if taken_down is not None:
             records.append(taken_down)
         if self.bar.reached(pose):
@@ -171,6 +196,8 @@ class Guide(ABC, Generic[State]):
             return records + self._issue(at_ms, pose, "completed")
         if self.bar.misstep:
             return records + self._misstep(at_ms, pose)
+        if self.bar.astray:
+            return records + self._issue(at_ms, pose, "restated")
         if self.bar.misleads(self.lead.scene, pose, observation):
             return records + self._issue(at_ms, pose, "off_path")
         if taken_down is not None and self.bar.strict:
@@ -184,8 +211,19 @@ class Guide(ABC, Generic[State]):
         better = self.lead.better_route(at_ms, pose.cell, self.ms_per_move)
         if better is not None:
             return records + self._give_up(at_ms, pose, "strayed", better)
+        if not self.bar.may_notice:
+            return records + self._issue(at_ms, pose, "restated")
         notice = correction(self.lead.scene, told, pose) or WRONG_WAY
         return records + self._issue(at_ms, pose, "misstep", notice)
+
+    def _lost(self, at_ms: int, pose: Pose) -> list[CoachRecord]:
+        """Help a rescuer who does not come nearer: say the way again from here, at a level that
+        the coach may change first."""
+        assert self.bar.shown is not None
+        by = self.bar.lost_by
+        records: list[CoachRecord] = [LostNoticed(at_ms, self.bar.shown.number, by)]
+        records += self._choose("lost", at_ms, pose)
+        return records + self._issue(at_ms, pose, "lost", _WHEN_LOST[by])
 
     def _treating(
         self, at_ms: int, pose: Pose, victim: str, observation: Observation

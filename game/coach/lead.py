@@ -10,6 +10,9 @@ from game.coach.route import RoutePlanner
 from game.world.building import Room, Severity
 from game.world.geometry import Cell
 
+GOAL_MS = 10_000
+"""No goal is taken away from a rescuer and given back within this time."""
+
 STRAY_GAIN_MOVES = 5
 """After a misstep another goal is set only if it saves somebody more, or so many moves. Straying by
 less than half of that cannot gain as much, and the route is not planned again."""
@@ -29,6 +32,7 @@ class Lead:
             self._floodfills, self._settings, self._waiting, seed=briefing.seed
         )
         self._nearest = 0
+        self._set_ms = -GOAL_MS
         self._any_expired = False
         self.route: tuple[str, ...] = ()
         self.scene = self._scene()
@@ -53,6 +57,7 @@ class Lead:
     ) -> bool:
         """Follow `route`, or the best one from here; whether it leads to anybody."""
         self.route = tuple(route or self._best(at_ms, position, ms_per_move))
+        self._set_ms = at_ms
         if self.route:
             self._nearest = self.to_go(position, self.goal)
         return bool(self.route)
@@ -70,15 +75,18 @@ class Lead:
         return distance
 
     def better_route(self, at_ms: int, position: Cell, ms_per_move: int) -> Sequence[str] | None:
-        """A route to another goal that is clearly better than going on to this one."""
+        """A route to another goal that is clearly better than going on to this one. None soon after
+        this one was set, and where it would be the goal again before long."""
         distance = self.to_go(position, self.goal)
-        if 2 * (distance - self._nearest) < STRAY_GAIN_MOVES:
+        if 2 * (distance - self._nearest) < STRAY_GAIN_MOVES or at_ms < self._set_ms + GOAL_MS:
             return None
         self._nearest = distance
         best = self._planner.plan(
             position, at_ms, self._waiting, ms_per_move=ms_per_move, before=self.route
         )
         if not best.order or best.order[0] == self.goal:
+            return None
+        if self.goal in best.order[1:2] and best.rescue_ms[0] < at_ms + GOAL_MS:
             return None
         kept = self._planner.along(self.route, position, at_ms, ms_per_move=ms_per_move)
         return best.order if best.saves(kept, STRAY_GAIN_MOVES * ms_per_move) else None

@@ -69,6 +69,10 @@ class LevelState:
             return heard
         return self._at(_moved(self.level, said), went_down=said == "lower")
 
+    def lowered(self) -> LevelState:
+        """The state after the rescuer was found lost: one level down, and not up at the goal."""
+        return self._at(_moved(self.level, "lower"), went_down=True)
+
     def asked(self, want: LevelWish) -> LevelState:
         """The state after the rescuer has asked for other words."""
         shift = self.shift + (SHIFT if want == "simpler" else -SHIFT)

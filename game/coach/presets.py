@@ -58,6 +58,8 @@ class Preset(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """Steps that go the way that was told count as nearer to the goals of the room that was told,
     so that only leaving that way speaks against them; needs `cost_difference`, whose factors are
     at most 1."""
+    lowers_when_lost: bool = False
+    """One level down when the rescuer has not come nearer for too long."""
     agreement: int = 1
     """So many consecutive evaluations within a goal must agree before the level changes."""
     raise_only_at_goal_end: bool = False
@@ -133,6 +135,7 @@ FLOODFILL = Preset(
     every_ms=3_000,
     minimum_moves=3,
     told_way=True,
+    lowers_when_lost=True,
     raise_only_at_goal_end=True,
 )
 """The default. A rescuer who does just as told is never lowered: no step of theirs speaks against

@@ -21,10 +21,10 @@ from game.world.settings import MissionSettings
 SCHEMA_VERSION = 2
 """Changes with any change to what a line holds; `game.journal.upgrades` then reads the older."""
 
-RULES_VERSION = 2
+RULES_VERSION = 3
 """Changes whenever the same timed actions may give another mission or another instruction."""
 
-RELEASES = {1: "a version before 0.1.0"}
+RELEASES = {1: "a version before 0.1.0", 2: "release 0.1.0"}
 """Which `ana` verifies journals of earlier rules."""
 
 Phase = Literal[

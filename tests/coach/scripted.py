@@ -63,10 +63,28 @@ A = room Annex
 B = room Gallery
 """)
 
+LONG = parse_building(f"""name: Long
+
+plan:
+{"#" * 91}
+#.o.+{"." * 38}>{"." * 42}+.o.#
+#.A.#{"#" * 81}#.B.#
+{"#" * 91}
+
+legend:
+> = start facing east
+o = blue victim
+A = room Annex
+B = room Booth
+""")
+"""Two victims far apart, and the start a little nearer to the one on the left."""
+
 PRACTICE = load_building("practice")
 
 STATIC = tuple(CoachSpec("static", level=level) for level in Level)
-ADAPTIVE = tuple(CoachSpec("ana", preset=p) for p in ("calibrated", "literal", "fig10", "released"))
+ADAPTIVE = tuple(
+    CoachSpec("ana", preset=p) for p in ("floodfill", "calibrated", "literal", "fig10", "released")
+)
 PACE = CoachSpec("pace", level=Level.C2)
 KNOWLEDGE = (
     CoachSpec("knowledge"),

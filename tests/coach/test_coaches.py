@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import pytest
+
 from game.coach.acts import (
     GoalSet,
     InstructionCompleted,
     InstructionIssued,
     Level,
     LevelChanged,
+    LostNoticed,
     Misstep,
     PaceLearned,
     PosteriorEvaluated,
 )
+from game.coach.compliance import LOST_MS
 from game.coach.kinds.pace import PaceCoach
+from game.coach.spec import CoachSpec
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.world import load_building
@@ -20,12 +25,14 @@ from game.world.events import Rescued
 from game.world.settings import MissionSettings
 from tests.coach.scripted import (
     ADAPTIVE,
+    EVERY,
     PACE,
     PRACTICE,
     STATIC,
     E,
     Game,
     N,
+    S,
     W,
     away,
     nearer,
@@ -37,7 +44,6 @@ from tests.coach.scripted import (
 def test_the_static_coach_keeps_its_level_and_evaluates_nothing() -> None:
     for spec in STATIC:
         game = Game(spec)
-        assert game.coach.next_evaluation_ms is None
         game.act(*[W, E] * 20)
         assert {record.level for record in only(InstructionIssued, game.records)} == {spec.level}
         assert not only(LevelChanged, game.records)
@@ -45,7 +51,7 @@ def test_the_static_coach_keeps_its_level_and_evaluates_nothing() -> None:
 
 
 def test_ana_lowers_the_level_of_someone_who_walks_away_and_says_it_anew_at_once() -> None:
-    game = Game(ADAPTIVE[0], PRACTICE)
+    game = Game(ADAPTIVE[1], PRACTICE)
     happened = [record for _ in range(40) for record in game.act(away(game))]
     changed = only(LevelChanged, happened)
     assert (changed[0].before, changed[0].after) == (Level.C2, Level.C1)
@@ -69,13 +75,41 @@ def test_a_level_rises_with_a_rescue_and_not_with_a_goal_that_is_lost() -> None:
     changed = only(LevelChanged, game.records)
     assert [(record.at_ms, record.after) for record in changed] == [(rescued.at_ms, Level.C3)]
 
-    lost = Game(ADAPTIVE[0], PRACTICE, MissionSettings(red_expiry_ms=20_000))
+    lost = Game(ADAPTIVE[1], PRACTICE, MissionSettings(red_expiry_ms=20_000))
     for _ in range(12):
         lost.act(nearer(lost))
     happened = lost.wait(20_000)
     assert "raise" in {record.verdict for record in only(PosteriorEvaluated, happened)}
     assert [record.reason for record in only(GoalSet, happened)] == ["expired"]
     assert not only(LevelChanged, happened)
+
+
+def test_ana_lowers_the_level_of_someone_who_is_lost_and_says_the_way_again() -> None:
+    game = Game(ADAPTIVE[0], PRACTICE)
+    happened = game.wait(LOST_MS)
+    (lost,), (changed,) = only(LostNoticed, happened), only(LevelChanged, happened)
+    assert (lost.at_ms, lost.by) == (LOST_MS, "standing")
+    assert (changed.before, changed.after, changed.comprehension) == (Level.C2, Level.C1, None)
+    issued = only(InstructionIssued, happened)[-1]
+    assert (issued.level, issued.reason) == (Level.C1, "lost")
+    assert issued.notice
+
+
+@pytest.mark.parametrize("spec", EVERY, ids=lambda spec: f"{spec.kind}-{spec.preset or spec.level}")
+def test_whoever_stands_paces_or_circles_hears_something_within_twelve_seconds(
+    spec: CoachSpec,
+) -> None:
+    square = [E, E, E, N, N, W, W, W, S, S]
+    for keys in ([], [E, W], square):
+        game = Game(spec, PRACTICE)
+        silent_ms, said_ms = 0, 0
+        for step in range(200):
+            before = len(game.records)
+            game.act(keys[step % len(keys)]) if keys else game.wait(200)
+            new = only(InstructionIssued, game.records[before:])
+            said_ms = new[-1].at_ms if new else said_ms
+            silent_ms = max(silent_ms, game.now_ms - said_ms)
+        assert silent_ms < 12_000
 
 
 def test_each_preset_evaluates_on_its_own_occasions() -> None:
@@ -97,7 +131,7 @@ def test_each_preset_evaluates_on_its_own_occasions() -> None:
 
 
 def test_released_begins_every_leg_after_a_rescue_at_c2() -> None:
-    game = Game(ADAPTIVE[3], PRACTICE)
+    game = Game(ADAPTIVE[4], PRACTICE)
     drive(game.run, LiteralReader("compass", {r.name: r.label for r in PRACTICE.rooms}))
     goals = [r.at_ms for r in only(GoalSet, game.records) if r.reason == "rescued"]
     firsts = [r for r in only(InstructionIssued, game.records) if r.reason == "goal"]

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -7,9 +9,13 @@ from hypothesis import strategies as st
 from game.coach.acts import Level
 from game.coach.compliance import (
     HEEDED_CELLS,
+    LOST_MS,
     MISSTEP_EXCESS,
     NOTHING_ASKED,
+    NOTICE_MS,
+    NOTICE_MS_PER_LETTER,
     READING_MS,
+    READING_MS_PER_LETTER,
     Compliance,
     fits,
     reached,
@@ -29,11 +35,15 @@ SCENE = Scene(BUILDING, SITES, MissionSettings())
 START = Pose(BUILDING.start, BUILDING.start_heading)
 
 
+STEP_MS, LATER_MS = 200, 60_000
+
+
 def walk(level: Level, distances: list[int]) -> list[Compliance]:
-    """The states after each of the distances; the first is where the instruction is issued."""
-    states = [NOTHING_ASKED.issued(level, distances[0])]
-    for distance in distances[1:]:
-        states.append(states[-1].acted(distance))
+    """The states after each of the distances, a step apart, long after the words were read; the
+    first is where the instruction is issued."""
+    states = [NOTHING_ASKED.issued(level, distances[0], 0, "")]
+    for step, distance in enumerate(distances[1:]):
+        states.append(states[-1].acted(distance, LATER_MS + STEP_MS * step))
     return states
 
 
@@ -82,31 +92,67 @@ def test_walking_on_the_right_way_is_never_a_misstep() -> None:
         assert not any(state.misstep for state in walk(level, list(range(40, 0, -1))))
 
 
+WORDS, NOTICE = "Walk forward 4 steps.", "That is the wrong way."
+
+
+def test_no_step_is_a_misstep_before_the_words_can_be_read() -> None:
+    state = NOTHING_ASKED.issued(Level.C1, 5, 1_000, WORDS)
+    readable_ms = 1_000 + READING_MS + READING_MS_PER_LETTER * len(WORDS)
+    early, late = state.acted(6, readable_ms - 1), state.acted(6, readable_ms)
+    assert early.astray
+    assert not early.misstep
+    assert late.misstep
+    assert not early.restated(Level.C1, 6).acted(7, readable_ms - 1).misstep
+    assert early.restated(Level.C1, 6).acted(7, readable_ms).misstep
+
+
 def test_a_second_misstep_is_disobedience_unless_something_was_completed_between() -> None:
     first = walk(Level.C1, [5, 6])[-1]
     assert first.misstep
-    assert not first.disobeys(1_000)
-    again = first.corrected(1_000).issued(Level.C1, 6)
-    assert again.acted(7).disobeys(9_000)
-    assert not again.completed().issued(Level.C1, 6).acted(7).disobeys(9_000)
+    assert not first.disobeys
+    again = first.corrected().issued(Level.C1, 6, LATER_MS, WORDS, NOTICE)
+    assert again.acted(7, 2 * LATER_MS).disobeys
+    forgiven = again.completed().issued(Level.C1, 6, LATER_MS, WORDS)
+    assert not forgiven.acted(7, 2 * LATER_MS).disobeys
 
 
-def test_a_misstep_before_the_correction_can_be_read_belongs_to_the_one_before() -> None:
-    state, disobeyed = NOTHING_ASKED.issued(Level.C1, 5), 0
-    for cell in range(30):
-        state, at_ms = state.acted(6 + cell), 200 * cell
-        disobeyed += state.disobeys(at_ms)
-        state = state.corrected(at_ms).issued(Level.C1, 6 + cell)
-    assert disobeyed == 29 * 200 // READING_MS
+def test_missteps_while_a_notice_is_being_read_belong_to_it() -> None:
+    state = walk(Level.C1, [5, 6])[-1].corrected().issued(Level.C1, 6, 0, WORDS, NOTICE)
+    notice_ms = NOTICE_MS + NOTICE_MS_PER_LETTER * len(NOTICE)
+    missteps, disobeyed, distance = 0, [], 6
+    for at_ms in range(0, 3 * notice_ms, STEP_MS):
+        distance += 1
+        state = state.acted(distance, at_ms)
+        missteps += state.misstep
+        if state.misstep and state.may_notice:
+            disobeyed.append(at_ms)
+            assert state.disobeys
+            state = state.corrected().issued(Level.C1, distance, at_ms, WORDS, NOTICE)
+        elif state.astray:
+            assert not state.disobeys
+            state = state.restated(Level.C1, distance)
+    assert missteps > len(disobeyed) > 1
+    assert all(later - earlier >= notice_ms for earlier, later in pairwise(disobeyed))
 
 
 def test_at_c3_no_misstep_is_disobedience_nor_leads_to_it() -> None:
-    astray = NOTHING_ASKED.issued(Level.C3, 5).acted(13)
+    astray = walk(Level.C3, [5, 13])[-1]
     assert astray.misstep
-    assert not astray.corrected(0).issued(Level.C2, 13).acted(16).disobeys(9_000)
-    strict = NOTHING_ASKED.issued(Level.C2, 5).acted(8).corrected(0)
-    assert not strict.issued(Level.C3, 8).acted(16).disobeys(9_000)
-    assert strict.issued(Level.C1, 8).acted(9).disobeys(9_000)
+    assert not astray.corrected().issued(Level.C2, 13, 0, "").acted(16, LATER_MS).disobeys
+    strict = walk(Level.C2, [5, 8])[-1].corrected()
+    assert not strict.issued(Level.C3, 8, 0, "").acted(16, LATER_MS).disobeys
+    assert strict.issued(Level.C1, 8, 0, "").acted(9, LATER_MS).disobeys
+
+
+def test_a_rescuer_is_lost_who_does_not_come_nearer() -> None:
+    state = NOTHING_ASKED.issued(Level.C2, 9, 3_000, WORDS)
+    assert state.lost_at_ms == 3_000 + LOST_MS
+    for step in range(40):
+        state = state.acted(9 + step % 2, 4_000 + STEP_MS * step)
+    assert state.lost_at_ms == 3_000 + LOST_MS
+    assert state.restated(Level.C2, 10).lost_at_ms == 3_000 + LOST_MS
+    assert state.acted(8, 20_000).lost_at_ms == 20_000 + LOST_MS
+    assert state.acted(11, 20_000, nearer=True).lost_at_ms == 20_000 + LOST_MS
 
 
 def test_a_correction_is_heeded_after_some_cells_the_right_way() -> None:

@@ -17,15 +17,34 @@ from game.coach.acts import (
 from game.coach.compliance import HEEDED_CELLS
 from game.coach.guide import ANOTHER_FIRST
 from game.coach.instructions.notices import WRONG_WAY
+from game.coach.lead import GOAL_MS
 from game.coach.route import Route, RoutePlanner
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted
 from game.world.settings import MissionSettings
-from tests.coach.scripted import GALLERY, PRACTICE, STATIC, E, Game, N, S, T, W, away, only, settle
+from tests.coach.scripted import (
+    GALLERY,
+    LONG,
+    PRACTICE,
+    STATIC,
+    E,
+    Game,
+    N,
+    S,
+    T,
+    W,
+    away,
+    only,
+    settle,
+)
+
+TO_READ_MS = 7_000
+"""Long enough to read anything on the bar, and not so long as to be lost."""
 
 
 def test_a_misstep_is_corrected_from_where_the_rescuer_stands() -> None:
     game = Game(STATIC[0])
+    game.wait(TO_READ_MS)
     happened = game.act(W)
     misstep, issued = only(Misstep, happened)[0], only(InstructionIssued, happened)[0]
     assert (misstep.number, misstep.excess, misstep.level) == (1, 1, Level.C1)
@@ -48,15 +67,34 @@ def test_a_misstep_always_has_a_correction() -> None:
 
 
 def test_whoever_strays_to_another_victim_is_led_there() -> None:
-    game = Game(STATIC[2])
-    assert only(GoalSet, game.records)[0].goal == "v02"
-    happened = game.act(*[E] * 6, N, N, *[E] * 2)
+    game = Game(STATIC[2], LONG)
+    assert only(GoalSet, game.records)[0].goal == "v01"
+    game.wait(GOAL_MS // 2)
+    game.act(W)
+    game.wait(GOAL_MS // 2)
+    happened = game.act(*[E] * 10)
     assert only(Misstep, happened)
     assert [(record.goal, record.reason) for record in only(GoalSet, happened)] == [
-        ("v03", "strayed")
+        ("v02", "strayed")
     ]
     issued = only(InstructionIssued, happened)[-1]
-    assert (issued.goal, issued.notice) == ("v03", ANOTHER_FIRST)
+    assert (issued.goal, issued.notice) == ("v02", ANOTHER_FIRST)
+
+
+def test_a_goal_is_not_changed_soon_after_it_was_set() -> None:
+    game = Game(STATIC[2], LONG)
+    game.wait(TO_READ_MS)
+    assert only(Misstep, game.act(*[E] * 10))
+    assert [record.reason for record in only(GoalSet, game.records)] == ["start"]
+
+
+def test_a_goal_that_would_be_given_back_within_seconds_is_kept() -> None:
+    game = Game(STATIC[2])
+    game.wait(GOAL_MS // 2)
+    game.act(E)
+    game.wait(GOAL_MS // 2)
+    assert only(Misstep, game.act(*[E] * 5, N, N, *[E] * 2))
+    assert [record.reason for record in only(GoalSet, game.records)] == ["start"]
 
 
 def test_a_step_or_two_astray_do_not_change_the_route(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -69,14 +107,19 @@ def test_a_step_or_two_astray_do_not_change_the_route(monkeypatch: pytest.Monkey
 
     game = Game(STATIC[0], GALLERY)
     monkeypatch.setattr(RoutePlanner, "plan", counted)
-    assert len(only(Misstep, game.act(*[E] * 9, W, W))) == 2
+    game.act(*[E] * 9)
+    for _ in range(2):
+        game.wait(TO_READ_MS)
+        assert only(Misstep, game.act(W))
     assert not planned
+    game.wait(TO_READ_MS)
     assert only(Misstep, game.act(W))
     assert len(planned) == 1
 
 
 def test_a_correction_leaves_the_bar_once_it_is_heeded() -> None:
     game = Game(STATIC[2])
+    game.wait(TO_READ_MS)
     game.act(*[E] * 12, *[W] * 12)
     game.wait(1)
     assert only(Misstep, game.records)
@@ -96,20 +139,22 @@ def test_with_the_correction_go_the_words_that_turned_the_rescuer_back() -> None
 
 def test_a_misstep_again_long_after_the_correction_is_disobedience() -> None:
     game = Game(STATIC[0])
+    game.wait(TO_READ_MS)
     game.act(W)
-    game.wait(5_000)
+    game.wait(TO_READ_MS)
     assert [record.kind for record in only(Disobeyed, game.act(E, E, E))] == ["repeat_misstep"]
 
 
 def test_an_instruction_completed_between_two_missteps_forgives_the_first() -> None:
     game, reader = Game(STATIC[0], PRACTICE), LiteralReader("compass")
+    game.wait(TO_READ_MS)
     game.act(away(game))
-    game.wait(5_000)
+    game.wait(TO_READ_MS)
     while not only(InstructionCompleted, game.records):
         action = reader.decide(game.run.observation())
         assert action is not None
         game.act(action)
-    game.wait(7_000)
+    game.wait(TO_READ_MS)
     game.act(away(game))
     assert len(only(Misstep, game.records)) == 2
     assert not only(Disobeyed, game.records)

@@ -35,7 +35,7 @@ def test_a_spec_that_makes_no_sense_is_not_read(text: str) -> None:
 
 def test_names_are_parsed_with_the_usual_choices() -> None:
     assert parse_coach("ana") == ADAPTIVE[0]
-    assert parse_coach("ana", preset="fig10") == ADAPTIVE[2]
+    assert parse_coach("ana", preset="fig10") == ADAPTIVE[3]
     assert parse_coach("static", 3) == STATIC[2]
     assert parse_coach("pace") == PACE
 

@@ -5,19 +5,38 @@ from __future__ import annotations
 from itertools import islice
 
 from game.coach.acts import Level
-from game.coach.instructions.legs import legs, treats
+from game.coach.instructions.legs import Leg, legs, treats
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import Tuple, Tuples
+from game.world.geometry import Cell
 
 MOST_LEGS = 3
 """How many straight runs one instruction holds."""
+
+MOST_STEPS = 12
+"""How many steps a person is asked to count in one go."""
 
 TURNS: tuple[Tuples, ...] = ((), (("Turn", "Right"),), (("Turn", "Around"),), (("Turn", "Left"),))
 """How to say a turn of so many quarters to the right."""
 
 STOP: Tuple = ("Stop", "0 Steps")
 UTILIZE: Tuple = ("Utilize", "MedicalEquipment")
+
+
+def _run(scene: Scene, start: Cell, leg: Leg) -> tuple[tuple[Cell, ...], Tuple]:
+    """The cells of a straight run from `start`, and how to say it. One that is too long to be
+    counted is told by the wall or the door that ends it; where none does, as far as can be counted.
+    """
+    cells, plan = leg.cells, scene.building.plan
+    if len(cells) <= MOST_STEPS:
+        return cells, ("Walkforward", f"{len(cells)} Steps")
+    if not plan.walkable(leg.heading.from_cell(cells[-1])):
+        return cells, ("Walkforward", "Wall")
+    first_door = next((n for n, cell in enumerate(cells) if plan.is_door(cell)), None)
+    if first_door is not None and first_door >= MOST_STEPS and not plan.is_door(start):
+        return cells[: first_door + 1], ("Walkforward", "Door")
+    return cells[:MOST_STEPS], ("Walkforward", f"{MOST_STEPS} Steps")
 
 
 def compose(scene: Scene, start: Pose, goal: str) -> Instruction:
@@ -27,9 +46,12 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction:
     pose = start
     for leg in islice(legs(scene, start, goal), MOST_LEGS):
         tuples += TURNS[(leg.heading - pose.heading) % 4]
-        tuples.append(("Walkforward", f"{len(leg.cells)} Steps"))
-        path += leg.cells
-        pose = leg.end
+        cells, said = _run(scene, pose.cell, leg)
+        tuples.append(said)
+        path += cells
+        pose = Pose(cells[-1], leg.heading)
+        if len(cells) < len(leg.cells):
+            break
     arrived = treats(scene, pose, goal)
     if arrived:
         tuples += [UTILIZE] if tuples else [STOP, UTILIZE]

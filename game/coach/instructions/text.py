@@ -22,6 +22,8 @@ def _at_c1(said: Tuple) -> str:
             return f"Turn {way.lower()}."
         case "Walkforward", count, "Steps":
             return f"Walk forward {count} {'step' if count == '1' else 'steps'}."
+        case "Walkforward", ("Wall" | "Door") as end:
+            return f"Walk forward to the {end.lower()}."
         case "Stop", "0", "Steps":
             return "Stop."
         case "Utilize", "MedicalEquipment":

@@ -19,6 +19,7 @@ class ToldWay:
 
     def __init__(self, scene: Scene, instruction: Instruction) -> None:
         self._steps = frozenset(pairwise(instruction.path))
+        self._left = {cell: left for left, cell in enumerate(reversed(instruction.path))}
         room = scene.room(instruction.goal)
         names_room = instruction.shown_level is Level.C3 and room is not None
         self._room = room if names_room else None
@@ -34,3 +35,14 @@ class ToldWay:
             return False
         nearer = self._to_label[self._index(end)] < self._to_label[self._index(start)]
         return nearer or self._room_at(end) is self._room
+
+    def left(self, cell: Cell) -> int | None:
+        """How many steps of the way are left at `cell`: of the path, or to the label of the room
+        that was named; None off the path."""
+        if self._to_label is not None:
+            return self._to_label[self._index(cell)]
+        return self._left.get(cell)
+
+    def searches(self, cell: Cell) -> bool:
+        """Whether the victim has to be looked for at `cell`."""
+        return self._room is not None and self._room_at(cell) is self._room

@@ -1,4 +1,5 @@
-"""The words of the three levels (paper 5.1.2), with the additions Door, BlueVictim and Around.
+"""The words of the three levels (paper 5.1.2), with the additions Door, BlueVictim and Around, and
+at C1 Wall and Door, which end a run that is too long to be counted.
 
 An instruction is a sequence of (action, object) tuples. An object is a phrase of the level's own
 words: a number where one is needed, a thing, and at C2 the side on which the walker meets it, as in
@@ -20,7 +21,7 @@ ACTIONS: dict[Level, frozenset[str]] = {
 }
 
 THINGS: dict[Level, frozenset[str]] = {
-    Level.C1: frozenset({"Steps", "Left", "Right", "Around", "MedicalEquipment"}),
+    Level.C1: frozenset({"Steps", "Left", "Right", "Around", "Wall", "Door", "MedicalEquipment"}),
     Level.C2: frozenset(
         [
             "Room",

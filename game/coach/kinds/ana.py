@@ -16,7 +16,6 @@ from game.coach.levels import LevelState
 from game.coach.presets import Preset
 from game.world.events import LevelWish
 from game.world.geometry import Cell
-from game.world.observation import Observation
 
 _OCCASIONS: dict[str, tuple[Occasion, ...]] = {
     "step": ("step",),
@@ -32,7 +31,7 @@ class Ana(Guide[LevelState]):
 
     def __init__(self, briefing: Briefing, preset: Preset) -> None:
         self._preset = preset
-        self._next_evaluation_ms = preset.every_ms
+        self._next_choice_ms = preset.every_ms
         self._learner = ComprehensionLearner(preset, briefing.building)
         super().__init__(
             briefing, self._learner, ThresholdInfluence(preset), LevelState.first(preset)
@@ -43,13 +42,8 @@ class Ana(Guide[LevelState]):
         return self.state.level
 
     @property
-    def next_evaluation_ms(self) -> int | None:
-        return self._next_evaluation_ms
-
-    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
-        if self._preset.every_ms is not None:
-            self._next_evaluation_ms = at_ms + self._preset.every_ms
-        return super().evaluate(at_ms, observation)
+    def next_choice_ms(self) -> int | None:
+        return self._next_choice_ms
 
     def goal_set(self, goal: str, position: Cell) -> None:
         self._learner.goal_set(goal, position)
@@ -62,21 +56,27 @@ class Ana(Guide[LevelState]):
         self.state = self.state.asked(want)
 
     def choose(self, occasion: Occasion, at_ms: int, pose: Pose, goal: str) -> list[CoachRecord]:
+        if occasion == "time" and self._preset.every_ms is not None:
+            self._next_choice_ms = at_ms + self._preset.every_ms
+        if occasion == "lost" and self._preset.lowers_when_lost:
+            return self._enter(self.state.lowered(), at_ms, judged=False)
         if occasion not in (*_OCCASIONS[self._preset.evaluate], "asked"):
             return []
         comprehension = self.cycle.evaluate().belief.comprehension
         assert comprehension is not None
+        thresholds = self.state.thresholds(self._preset)
         return [
-            evaluation_record(comprehension, self.state.thresholds(self._preset), at_ms),
+            evaluation_record(comprehension, thresholds, at_ms),
             *self._enter(self.cycle.adapt(self.state), at_ms),
         ]
 
-    def _enter(self, state: LevelState, at_ms: int) -> list[CoachRecord]:
+    def _enter(self, state: LevelState, at_ms: int, *, judged: bool = True) -> list[CoachRecord]:
         before, self.state = self.state, state
-        comprehension = self.cycle.model.belief.comprehension
-        if comprehension is None or state.level is before.level:
+        if state.level is before.level:
             return []
-        return [LevelChanged(at_ms, before.level, state.level, comprehension.value)]
+        comprehension = self.cycle.model.belief.comprehension if judged else None
+        value = None if comprehension is None else comprehension.value
+        return [LevelChanged(at_ms, before.level, state.level, value)]
 
 
 def ana(briefing: Briefing, preset: Preset) -> Ana | AnaByBelief:

@@ -7,6 +7,7 @@ returns the last Observation when it is done. `docs/instructions.md` has the sam
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping
+from typing import Literal
 
 from game.rescuers.literal import looking
 from game.rescuers.literal.grammar import (
@@ -28,6 +29,7 @@ from game.rescuers.literal.grammar import (
     UnreadableInstruction,
     Utilize,
     Walk,
+    WalkTo,
 )
 from game.world.building import Severity
 from game.world.events import Action
@@ -76,6 +78,8 @@ class Walker:
                 return (yield from self._turn(now, _turned(self._facing, way)))
             case Walk(steps):
                 return (yield from self._walk(now, steps))
+            case WalkTo(end):
+                return (yield from self._walk_to(now, end))
             case Utilize():
                 return (yield Action.TRIAGE)
             case Stop():
@@ -132,6 +136,15 @@ class Walker:
 
     def _walk(self, now: Observation, steps: int) -> Doing:
         for _ in range(steps):
+            now = yield from self._step(now)
+        return now
+
+    def _walk_to(self, now: Observation, end: Literal["wall", "door"]) -> Doing:
+        """Ahead to the last cell before the wall, or onto the first door cell."""
+        while not (end == "door" and now.plan.is_door(now.position)):
+            ahead = self._facing.from_cell(now.position)
+            if end == "wall" and not now.plan.walkable(ahead):
+                break
             now = yield from self._step(now)
         return now
 

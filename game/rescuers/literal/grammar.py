@@ -29,6 +29,13 @@ class Walk:
 
 
 @dataclass(frozen=True)
+class WalkTo:
+    """Ahead to the last cell before the wall, or onto the first door cell."""
+
+    end: Literal["wall", "door"]
+
+
+@dataclass(frozen=True)
 class Stop:
     pass
 
@@ -100,6 +107,7 @@ class Triage:
 Sentence = (
     Turn
     | Walk
+    | WalkTo
     | Stop
     | Utilize
     | ProceedToEnd
@@ -119,11 +127,13 @@ _NUMBERS = {word: number for number, word in enumerate(_ORDINALS.split(" "), sta
 _SIDES: dict[str, Side] = {"left": "left", "right": "right"}
 _WAYS: dict[str, Way] = {"left": "left", "right": "right", "around": "around"}
 _LANDMARKS: dict[str, Landmark] = {"door": "door", "intersection": "intersection"}
+_ENDS: dict[str, Literal["wall", "door"]] = {"wall": "wall", "door": "door"}
 
 _NUMBER = f"({'|'.join(_NUMBERS)})"
 _PATTERNS: tuple[tuple[str, Callable[..., Sentence]], ...] = (
     (r"Turn (left|right|around)", lambda way: Turn(_WAYS[way])),
     (r"Walk forward (\d+) steps?", lambda steps: Walk(int(steps))),
+    (r"Walk forward to the (wall|door)", lambda end: WalkTo(_ENDS[end])),
     (r"Stop", Stop),
     (r"Utilize medical equipment", Utilize),
     (r"Proceed to the end of the (?:hallway|room)", ProceedToEnd),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from game.rescuers.literal.grammar import GoTo, Sentence, Stop, Triage, Turn, Utilize, Walk
+from game.rescuers.literal.grammar import GoTo, Sentence, Stop, Triage, Turn, Utilize, Walk, WalkTo
 
 Style = Literal[1, 2, 3]
 """How an instructor talks: in steps, by doors and hallways, by names of rooms."""
@@ -54,6 +54,6 @@ def style_of(sentences: tuple[Sentence, ...]) -> Style | None:
     """How the words talk; None where a turn alone does not tell."""
     if any(isinstance(sentence, GoTo | Triage) for sentence in sentences):
         return 3
-    if any(isinstance(sentence, Walk | Utilize | Stop) for sentence in sentences):
+    if any(isinstance(sentence, Walk | WalkTo | Utilize | Stop) for sentence in sentences):
         return 1
     return None if all(isinstance(sentence, Turn) for sentence in sentences) else 2
