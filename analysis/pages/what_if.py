@@ -1,7 +1,9 @@
 """What other thresholds and another prior would have made of the same behaviour."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,8 +14,11 @@ from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, StudyData
 from analysis.sources.recorded import Recorded
 from game.tables.rejudging import (
+    Asked,
     GoalEnd,
+    Happened,
     Judged,
+    Lost,
     Rule,
     levels_under,
     rule_of,
@@ -28,8 +33,7 @@ class JudgedMission:
     participant: str
     knowledge: str
     rule: Rule
-    judged: tuple[Judged, ...]
-    ends: tuple[GoalEnd, ...]
+    happened: tuple[Happened, ...]
     until_ms: int
 
 
@@ -43,10 +47,7 @@ def judged_missions(recorded: Recorded, study: StudyData) -> list[JudgedMission]
     played = rounds[rounds["preset"].notna()]
     if played.empty:
         raise Refusal("no adaptive mission was played")
-    ends = _goal_ends(recorded)
-    clear = recorded.frame("posteriors")
-    clear = clear[clear["verdict"] != "none"]
-    judged = dict(list(clear.groupby(["participant", "round"])))
+    happened = _happened(recorded)
     lasted = recorded.frame("levels").groupby(["participant", "round"], as_index=False)
     until = {
         (who, round_): int(at_ms)
@@ -57,8 +58,7 @@ def judged_missions(recorded: Recorded, study: StudyData) -> list[JudgedMission]
             participant=who,
             knowledge=group,
             rule=_rule(preset),
-            judged=_judged(judged.get((who, round_))),
-            ends=tuple(ends.get((who, round_), ())),
+            happened=tuple(happened.get((who, round_), ())),
             until_ms=until[who, round_],
         )
         for who, round_, group, preset in zip(
@@ -79,15 +79,18 @@ def stretches(
 
     Raises Refusal for another prior mass where the prior was uniform.
     """
-    judged, own = mission.judged, mission.rule.prior_mass
+    happened, own = mission.happened, mission.rule.prior_mass
     if prior_mass is not None:
         if own is None:
             raise Refusal(f"the prior of {mission.rule.name} is uniform, and has no mass")
-        judged = tuple(
-            Judged(at_ms, with_prior_mass(value, own, prior_mass)) for at_ms, value in judged
+        happened = tuple(
+            what._replace(comprehension=with_prior_mass(what.comprehension, own, prior_mass))
+            if isinstance(what, Judged)
+            else what
+            for what in happened
         )
     rule = rule_of(mission.rule.name, lower_below=lower_below, raise_above=raise_above)
-    changes = list(levels_under(rule, judged, mission.ends))
+    changes = list(levels_under(rule, happened))
     ends = [*(at_ms for at_ms, _ in changes[1:]), mission.until_ms]
     return [
         (level, from_ms, until_ms)
@@ -127,27 +130,32 @@ def _rule(name: str) -> Rule:
         raise Refusal(str(error)) from error
 
 
-def _judged(rows: pd.DataFrame | None) -> tuple[Judged, ...]:
-    if rows is None:
-        return ()
-    return tuple(
-        Judged(int(at_ms), float(value))
-        for at_ms, value in zip(rows["at_ms"], rows["comprehension"], strict=True)
-    )
-
-
-def _goal_ends(recorded: Recorded) -> dict[tuple[str, int], list[GoalEnd]]:
-    """A goal ends where the next is set, which the bar shows at once."""
+def _happened(recorded: Recorded) -> dict[tuple[str, int], list[Happened]]:
+    """What Algorithm 1 takes account of, by mission."""
+    found: dict[tuple[str, int], list[Happened]] = defaultdict(list)
     told = recorded.frame("instructions")
-    victims = recorded.frame("victims")
-    rescued = set(_rescues(victims))
-    ends: dict[tuple[str, int], list[GoalEnd]] = {}
-    for (who, round_), rows in told[told["reason"] == "goal"].groupby(["participant", "round"]):
-        key = str(who), int(str(round_))
-        ends[key] = [
-            GoalEnd(int(at_ms), (*key, int(at_ms)) in rescued) for at_ms in rows["at_ms"].iloc[1:]
-        ]
-    return ends
+    for key, at_ms, _ in _timed(told[told["reason"] == "lost"], "reason"):
+        found[key].append(Lost(at_ms))
+    clear = recorded.frame("posteriors")
+    for key, at_ms, value in _timed(clear[clear["verdict"] != "none"], "comprehension"):
+        found[key].append(Judged(at_ms, float(value)))
+    for key, at_ms, want in _timed(recorded.frame("asked"), "want"):
+        found[key].append(Asked(at_ms, want))
+    rescued = set(_rescues(recorded.frame("victims")))
+    begun = set()
+    for key, at_ms, _ in _timed(told[told["reason"] == "goal"], "reason"):
+        if key in begun:
+            found[key].append(GoalEnd(at_ms, (*key, at_ms) in rescued))
+        begun.add(key)
+    return found
+
+
+def _timed(rows: pd.DataFrame, column: str) -> Iterator[tuple[tuple[str, int], int, Any]]:
+    """Mission, mission time in ms and the value of a column, for each row."""
+    for who, round_, at_ms, value in zip(
+        *(rows[name] for name in ("participant", "round", "at_ms", column)), strict=True
+    ):
+        yield (str(who), int(round_)), int(at_ms), value
 
 
 def _rescues(victims: pd.DataFrame) -> Iterator[tuple[str, int, int]]:

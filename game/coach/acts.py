@@ -140,10 +140,10 @@ class BeliefChanged(CoachAct, frozen=True, tag="belief_changed"):
     unseen_cells: int
 
 
-ChoiceReason = Literal["soonest", "stays", "looks_lost", "lost"]
+ChoiceReason = Literal["soonest", "stays", "looks_lost", "lost", "asked"]
 """Why `knowledge` chose a level: it is expected to be soonest; another would be sooner, but by too
 little to change; the walk looks like that of somebody who does not know the way; the rescuer has
-not come nearer for too long."""
+not come nearer for too long, or has asked for other words."""
 
 
 class KnowledgeJudged(CoachAct, frozen=True, tag="knowledge_judged", kw_only=True):

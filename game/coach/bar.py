@@ -24,12 +24,13 @@ from game.world.observation import Guidance, Observation
 
 @dataclass(frozen=True)
 class OnBar:
-    """The instruction on the bar: its number, when it was put there (mission ms), the notice that
-    came with it, and the way that it tells."""
+    """The instruction on the bar: its number, when it was put there (mission ms) and why, the way
+    that it tells, and the notice that came with it."""
 
     instruction: Instruction
     number: int
     at_ms: int
+    reason: IssueReason
     told: ToldWay
     notice: str = ""
 
@@ -78,7 +79,7 @@ class Bar:
             )
         self._number += 1
         told = ToldWay(scene, instruction)
-        self.shown = OnBar(instruction, self._number, at_ms, told, notice)
+        self.shown = OnBar(instruction, self._number, at_ms, reason, told, notice)
         self.open = True
         self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)

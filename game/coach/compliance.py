@@ -23,9 +23,9 @@ HEEDED_CELLS = 3
 """After so many cells the right way a notice has been understood."""
 
 READING_MS, READING_MS_PER_LETTER = 400, 42
-"""How soon the words that say what to do next can have been read: 238 words a minute (Brysbaert, 2019, Journal of Memory and
-Language 109), after a reaction. Until then the rescuer still acts on what was there before, and no
-step is a misstep."""
+"""How soon the words that say what to do next can have been read: 238 words a minute (Brysbaert,
+2019, Journal of Memory and Language 109), after a reaction. Until then the rescuer still acts on
+what was there before, and no step is a misstep."""
 
 NOTICE_MS, NOTICE_MS_PER_LETTER = 2_000, 60
 """How long a notice is left to be read, at a pace that suits anybody, before another may take its
@@ -65,7 +65,7 @@ class Compliance:
     def issued(
         self, level: Level, distance: int, at_ms: int, opening: str, notice: str = ""
     ) -> Compliance:
-        """Another instruction stands on the bar; `opening` are the words that say what to do next."""
+        """Another instruction stands on the bar, whose `opening` says what to do next."""
         read_ms = at_ms + READING_MS + READING_MS_PER_LETTER * (len(opening) + len(notice))
         notice_ms = self.notice_ms
         if notice:

@@ -56,10 +56,10 @@ _WHEN_LOST: dict[LostBy, str] = {
 """What is said to a rescuer who is lost, before the way is told again from there."""
 
 State = TypeVar("State")
-Occasion = Literal["goal", "step", "completed", "misstep", "lost", "asked", "time"]
+Occasion = Literal["goal", "step", "completed", "misstep", "lost", "time"] | LevelWish
 """When a coach may choose: a goal has been set; the rescuer has moved; an instruction has been
-carried out; a misstep was made; the rescuer has not come nearer for too long, or has asked for
-other words; the time that the coach asked for has come."""
+carried out; a misstep was made; the rescuer has not come nearer for too long; the time that the
+coach asked for has come; the rescuer has asked for `simpler` or `shorter` words."""
 
 
 class Guide(ABC, Generic[State]):
@@ -109,9 +109,6 @@ class Guide(ABC, Generic[State]):
         is what should be spoken from here on, and return what the journal should keep of it."""
         return []
 
-    def asked(self, want: LevelWish) -> None:
-        """The rescuer has asked for simpler or shorter words; `choose` is called next."""
-
     def goal_set(self, goal: str, position: Cell) -> None:
         """The rescuer, who stands at `position`, is led to `goal` from now on."""
 
@@ -148,9 +145,8 @@ class Guide(ABC, Generic[State]):
             case Expired(victim=victim):
                 records += self._expired(event.at_ms, pose, victim)
             case LevelAsked(want=want):
-                self.asked(want)
                 if self.bar.shown is not None:
-                    records += self._choose("asked", event.at_ms, pose)
+                    records += self._choose(want, event.at_ms, pose)
                     records += self._follow_level(event.at_ms, pose)
         return records
 

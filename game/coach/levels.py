@@ -14,10 +14,33 @@ Verdict = Literal["lower", "keep", "raise"]
 DECIMALS = 9
 """Thresholds decide on rounded values, so that the last bit of exp() decides nothing."""
 
-SHIFT, MOST_SHIFT = 0.1, 0.2
-"""By how much the level key shifts both thresholds, and how far at most."""
+SHIFT = 0.2
+"""By how much each press of the level key shifts both thresholds. After two presses for simpler
+words, a walk that leaves the goal an open question lowers the level."""
+MOST_PREFERENCE = 2
+"""So many presses count at most, either way."""
 LEAST = 0.05
 """No threshold lies nearer to 0 or 1."""
+
+
+def preferring(before: int, want: LevelWish) -> int:
+    """How many more times simpler words have been asked for than shorter ones, once `want` has been
+    asked for too; at most `MOST_PREFERENCE` either way."""
+    after = before + (1 if want == "simpler" else -1)
+    return min(MOST_PREFERENCE, max(-MOST_PREFERENCE, after))
+
+
+def opposite(occasion: str, before: Level, after: Level) -> bool:
+    """Whether a change of level is the opposite of what the rescuer asked for on this occasion."""
+    return after > before if occasion == "simpler" else occasion == "shorter" and after < before
+
+
+def thresholds(preset: Preset, preference: int) -> tuple[float, float]:
+    """Below the first the level goes down, above the second up, for a rescuer with this
+    `preference`."""
+    shift = SHIFT * preference
+    low, high = preset.lower_below + shift, preset.raise_above + shift
+    return max(LEAST, round(low, DECIMALS)), min(1 - LEAST, round(high, DECIMALS))
 
 
 def verdict(comprehension: float, lower_below: float, raise_above: float) -> Verdict:
@@ -33,24 +56,23 @@ class LevelState:
     """The level in force, and what the evaluations within the goal have said so far.
 
     `latest` is the last verdict, `run` how many evaluations in a row gave it; `went_down` whether
-    one that counted asked for a lower level, even where there is none below. `shift` is added to
-    both thresholds: above 0 for a rescuer who has asked for simpler words.
+    one that counted asked for a lower level, even where there is none below. `preference` is above
+    0 for a rescuer who has asked for simpler words, below for one who has asked for shorter ones.
     """
 
     level: Level
     latest: Verdict = "keep"
     run: int = 0
     went_down: bool = False
-    shift: float = 0.0
+    preference: int = 0
 
     @classmethod
     def first(cls, preset: Preset) -> LevelState:
         return cls(preset.first_level)
 
     def thresholds(self, preset: Preset) -> tuple[float, float]:
-        """Below the first the level goes down, above the second up."""
-        low, high = preset.lower_below + self.shift, preset.raise_above + self.shift
-        return max(LEAST, low), min(1 - LEAST, high)
+        """The thresholds of `preset` as the rescuer's preference shifts them."""
+        return thresholds(preset, self.preference)
 
     def evaluated(
         self, preset: Preset, comprehension: float, *, in_goal_room: bool = False
@@ -75,8 +97,7 @@ class LevelState:
 
     def asked(self, want: LevelWish) -> LevelState:
         """The state after the rescuer has asked for other words."""
-        shift = self.shift + (SHIFT if want == "simpler" else -SHIFT)
-        return replace(self, shift=round(min(MOST_SHIFT, max(-MOST_SHIFT, shift)), DECIMALS))
+        return replace(self, preference=preferring(self.preference, want))
 
     def given_up(self) -> LevelState:
         """The state with which the next goal begins after one that was given up: the level stays,
@@ -96,7 +117,7 @@ class LevelState:
         return self._at(_moved(self.level, "raise") if rises else self.level)
 
     def _at(self, level: Level, *, went_down: bool = False) -> LevelState:
-        return LevelState(level, went_down=went_down, shift=self.shift)
+        return LevelState(level, went_down=went_down, preference=self.preference)
 
 
 _ABSOLUTE = {"lower": Level.C1, "keep": Level.C2, "raise": Level.C3}

@@ -18,7 +18,7 @@ from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.session.yoking import yoke_of
 from game.world import load_building
-from game.world.settings import MissionSettings
+from game.world.settings import FREE_PLAY, MissionSettings
 
 DEFAULT_BUILDING = "harbour"
 MINUTE_MS = 60_000
@@ -102,7 +102,7 @@ def options_of(
     levels_of: Path | None = None,
 ) -> PlayOptions:
     """The mission defined by `mission_options`. Raises AnaError, naming the option."""
-    settings = assigned(MissionSettings(), assignments)
+    settings = assigned(FREE_PLAY, assignments)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
     seed = int.from_bytes(os.urandom(4)) if seed is None else seed

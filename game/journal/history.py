@@ -10,7 +10,15 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from game.coach.acts import CoachAct, Disobeyed, InstructionIssued, Level, LevelChanged, Misstep
+from game.coach.acts import (
+    CoachAct,
+    Disobeyed,
+    InstructionIssued,
+    Level,
+    LevelChanged,
+    LostNoticed,
+    Misstep,
+)
 from game.journal.reader import Entry, Transcript
 from game.journal.records import (
     Allocated,
@@ -94,6 +102,7 @@ class MissionHistory:
     fates: dict[str, tuple[Literal["rescued", "expired"], int]] = field(default_factory=dict)
     actions: int = 0
     missteps: int = 0
+    lost: int = 0
     disobeyed: list[str] = field(default_factory=list)
     texts: int = 0
     level_changes: list[tuple[int, Level, float | None]] = field(default_factory=list)
@@ -121,6 +130,8 @@ class MissionHistory:
                 self.level_changes.append((record.at_ms, record.after, record.comprehension))
             case Misstep():
                 self.missteps += 1
+            case LostNoticed():
+                self.lost += 1
             case Disobeyed():
                 self.disobeyed.append(record.kind)
             case MissionEnded():

@@ -11,9 +11,10 @@ import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.world.events import LevelWish
 
 LIKERT_POINTS = 5
-LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off")
+LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 
 
@@ -97,6 +98,19 @@ class CutOff(_Part, frozen=True):
     mission: str
 
 
+class LevelKeyWords(_Part, frozen=True):
+    """Where the level key is allowed: what is said of it before a mission, and shown for a moment
+    when it is pressed."""
+
+    text: str
+    simpler: str
+    shorter: str
+
+    def of(self, want: LevelWish) -> str:
+        """What is shown when it has been pressed."""
+        return self.simpler if want == "simpler" else self.shorter
+
+
 class ScreenWords(_Part, frozen=True):
     """The small words of the screens: what keys do, and what is left to do."""
 
@@ -148,6 +162,7 @@ class Texts(_Part, frozen=True):
     label: Page
     mission: Page
     cut_off: CutOff
+    level_key: LevelKeyWords
     mental_state: Page
     likert: Page
     preference: Page
@@ -229,6 +244,11 @@ def filled(page: Page, **facts: str) -> Page:
 def preceded(page: Page, remark: str) -> Page:
     """The page with a highlighted remark above its text."""
     return Page(title=page.title, body=f"**{remark}**\n\n{page.body.strip()}")
+
+
+def followed(page: Page, more: str) -> Page:
+    """The page with another paragraph below its text."""
+    return Page(title=page.title, body=f"{page.body.strip()}\n\n{more}")
 
 
 _Read = TypeVar("_Read", Texts, Items)

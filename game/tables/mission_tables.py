@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from game.coach.acts import (
     Disobeyed,
@@ -20,6 +20,7 @@ from game.journal.history import MissionHistory
 from game.journal.records import RunRecord
 from game.tables.rows import (
     ActionRow,
+    AskedRow,
     HeadingName,
     InstructionRow,
     InstructorKind,
@@ -29,9 +30,10 @@ from game.tables.rows import (
     VictimRow,
 )
 from game.world.building import Building
-from game.world.events import Acted
+from game.world.events import Acted, LevelAsked
 from game.world.geometry import Heading
 
+_Kind = TypeVar("_Kind", PosteriorEvaluated, LevelAsked)
 _LEVELS: dict[Level, LevelName] = {Level.C1: "C1", Level.C2: "C2", Level.C3: "C3"}
 _HEADINGS: dict[Heading, HeadingName] = {
     Heading.NORTH: "north",
@@ -100,19 +102,28 @@ class MissionTables:
         if shown is not None:
             yield self._instruction(shown, under, self.mission.until_ms)
 
+    def asked(self) -> Iterator[AskedRow]:
+        for level, record in self._with_level(LevelAsked):
+            yield AskedRow.of(record, **self.shared, level=level_name(level))
+
     def posteriors(self) -> Iterator[PosteriorRow]:
+        for level, record in self._with_level(PosteriorEvaluated):
+            yield self._evaluation(record, level)
+
+    def levels(self) -> Iterator[LevelRow]:
+        for span in self.mission.levels():
+            yield LevelRow.of(**self.shared | span._asdict() | {"level": level_name(span.level)})
+
+    def _with_level(self, kind: type[_Kind]) -> Iterator[tuple[Level, _Kind]]:
+        """Each record of a kind, with the level that was in force before it."""
         level = Level.C2
         for record in self.mission.records:
             if isinstance(record, InstructionIssued):
                 level = record.level
             elif isinstance(record, LevelChanged):
                 level = record.after
-            elif isinstance(record, PosteriorEvaluated):
-                yield self._evaluation(record, level)
-
-    def levels(self) -> Iterator[LevelRow]:
-        for span in self.mission.levels():
-            yield LevelRow.of(**self.shared | span._asdict() | {"level": level_name(span.level)})
+            elif isinstance(record, kind):
+                yield level, record
 
     def _instruction(
         self, issued: InstructionIssued, under: list[RunRecord], until_ms: int

@@ -6,7 +6,7 @@ a rule judges given behaviour, not what people would have done under that rule.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import msgspec
@@ -15,6 +15,7 @@ from game.coach.levels import LevelState
 from game.coach.presets import Preset, preset
 from game.tables.mission_tables import level_name
 from game.tables.rows import LevelName
+from game.world.events import LevelWish
 
 Rule = Preset
 """The choices that Algorithm 1 leaves open, as the analysis knows them."""
@@ -25,6 +26,19 @@ class Judged(NamedTuple):
 
     at_ms: int
     comprehension: float
+
+
+class Lost(NamedTuple):
+    """The rescuer was noticed to be lost at mission time `at_ms`."""
+
+    at_ms: int
+
+
+class Asked(NamedTuple):
+    """The rescuer asked for other words at mission time `at_ms`."""
+
+    at_ms: int
+    want: LevelWish
 
 
 class GoalEnd(NamedTuple):
@@ -63,25 +77,32 @@ def with_prior_mass(comprehension: float, recorded: float, other: float) -> floa
     return odds * comprehension / (odds * comprehension + 1 - comprehension)
 
 
-def levels_under(
-    rule: Preset, judged: Sequence[Judged], ends: Sequence[GoalEnd]
-) -> Iterator[tuple[int, LevelName]]:
+Happened = Judged | Lost | Asked | GoalEnd
+"""What Algorithm 1 takes account of."""
+
+
+def levels_under(rule: Preset, happened: Iterable[Happened]) -> Iterator[tuple[int, LevelName]]:
     """When each level came into force, beginning with the first at 0 ms. At a tie the end of a goal
-    goes first, as in a mission."""
+    goes first and being lost last, as in a mission."""
     state = LevelState.first(rule)
     yield 0, level_name(state.level)
-    for at_ms, what in _in_order(judged, ends):
+    for what in sorted(happened, key=lambda it: (it.at_ms, _TIES.index(type(it)))):
         before = state.level
-        if isinstance(what, GoalEnd):
-            state = state.rescued(rule) if what.rescued else state.given_up()
-        else:
-            state = state.evaluated(rule, what.comprehension)
+        state = _after(state, rule, what)
         if state.level is not before:
-            yield at_ms, level_name(state.level)
+            yield what.at_ms, level_name(state.level)
 
 
-def _in_order(
-    judged: Iterable[Judged], ends: Iterable[GoalEnd]
-) -> list[tuple[int, Judged | GoalEnd]]:
-    both: list[Judged | GoalEnd] = [*ends, *judged]
-    return sorted(((what.at_ms, what) for what in both), key=lambda timed: timed[0])
+_TIES = (GoalEnd, Asked, Judged, Lost)
+
+
+def _after(state: LevelState, rule: Preset, what: Happened) -> LevelState:
+    match what:
+        case GoalEnd(rescued=rescued):
+            return state.rescued(rule) if rescued else state.given_up()
+        case Judged(comprehension=comprehension):
+            return state.evaluated(rule, comprehension)
+        case Asked(want=want):
+            return state.asked(want)
+        case Lost():
+            return state.lowered() if rule.lowers_when_lost else state

@@ -13,7 +13,7 @@ import msgspec
 from game.journal.records import Mode, Phase, StepEnding
 from game.tables.columns import col
 from game.world.building import Severity
-from game.world.events import Action, Outcome
+from game.world.events import Action, LevelWish, Outcome
 
 LevelName = Literal["C1", "C2", "C3"]
 InstructorKind = Literal["static", "adaptive"]
@@ -183,6 +183,11 @@ class RoundRow(TableRow, frozen=True):
         int | None, col("Disobeyed in this mission by treating another victim.")
     ]
     missteps: Annotated[int | None, col("Missteps in this mission.")]
+    lost: Annotated[
+        int | None, col("How often the rescuer was noticed to be lost in this mission.")
+    ]
+    asked_simpler: Annotated[int | None, col("Requests for simpler words in this mission.")]
+    asked_shorter: Annotated[int | None, col("Requests for shorter words in this mission.")]
     instructions: Annotated[int | None, col("Instructions issued in this mission.")]
     completed: Annotated[int | None, col("Instructions completed in this mission.")]
     fallbacks: Annotated[
@@ -287,7 +292,8 @@ class InstructionRow(TableRow, frozen=True):
     reason: Annotated[
         str,
         col(
-            "Why it was issued: one of goal, completed, level, off_path, misstep, heeded, resumed."
+            "Why it was issued: one of goal, completed, level, off_path, restated, misstep, "
+            "heeded, resumed, lost."
         ),
     ]
     x: _X
@@ -343,6 +349,17 @@ class LevelRow(TableRow, frozen=True):
     from_ms: Annotated[int, col("When the level came into force, in mission time.", "ms")]
     until_ms: _UntilMs
     comprehension: Annotated[float | None, _Comprehension]
+
+
+class AskedRow(TableRow, frozen=True):
+    """One row per request, by the level key, for other words."""
+
+    participant: _Participant
+    round: _Round
+    adaptivity: _Adaptivity
+    at_ms: _AtMs
+    want: Annotated[LevelWish, col("What was asked for: simpler words, or shorter ones.")]
+    level: _Level
 
 
 class PhaseRow(TableRow, frozen=True):

@@ -19,6 +19,7 @@ from game.journal.records import ROUNDS, Allocated, Phase
 from game.tables.mission_tables import MissionTables, level_name
 from game.tables.rows import (
     ActionRow,
+    AskedRow,
     FreeTextRow,
     InstructionRow,
     InstructorKind,
@@ -56,6 +57,7 @@ class Tables:
     instructions: tuple[InstructionRow, ...] = ()
     posteriors: tuple[PosteriorRow, ...] = ()
     levels: tuple[LevelRow, ...] = ()
+    asked: tuple[AskedRow, ...] = ()
     phases: tuple[PhaseRow, ...] = ()
     freetext: tuple[FreeTextRow, ...] = ()
 
@@ -75,6 +77,7 @@ ROW_TYPES: dict[str, type[TableRow]] = {
     "instructions": InstructionRow,
     "posteriors": PosteriorRow,
     "levels": LevelRow,
+    "asked": AskedRow,
     "phases": PhaseRow,
     "freetext": FreeTextRow,
 }
@@ -164,6 +167,7 @@ class _Session:
             instructions=tuple(row for mission in missions for row in mission.instructions()),
             posteriors=tuple(row for mission in missions for row in mission.posteriors()),
             levels=tuple(row for mission in missions for row in mission.levels()),
+            asked=tuple(row for mission in missions for row in mission.asked()),
             phases=tuple(self.phases()),
             freetext=tuple(self.free_texts()),
         )
@@ -288,7 +292,7 @@ class _Session:
         victims, instructions = tuple(mission.victims()), tuple(mission.instructions())
         outcomes = [action.outcome for action in mission.actions()]
         levels, posteriors = tuple(mission.levels()), tuple(mission.posteriors())
-        kinds = self.disobeyed([mission])
+        kinds, wants = self.disobeyed([mission]), [row.want for row in mission.asked()]
         clear = [row.comprehension for row in posteriors if row.verdict != "none"]
         saved = [row.severity for row in victims if row.fate == "rescued"]
         outcome: dict[str, int] = {
@@ -303,6 +307,9 @@ class _Session:
             "repeat_misstep_in_round": kinds.count("repeat_misstep"),
             "other_victim_in_round": kinds.count("other_victim"),
             "missteps": sum(row.missteps_under for row in instructions),
+            "lost": mission.mission.lost,
+            "asked_simpler": wants.count("simpler"),
+            "asked_shorter": wants.count("shorter"),
             "instructions": len(instructions),
             "completed": sum(row.completed_ms is not None for row in instructions),
             "fallbacks": sum(row.fallback for row in instructions),

@@ -64,3 +64,6 @@ _RANGES = (
     ("points_red", 0, 1_000),
     ("points_blue", 0, 1_000),
 )
+
+FREE_PLAY = MissionSettings(level_key=True)
+"""What a mission outside a study is played by, where nothing else is said."""

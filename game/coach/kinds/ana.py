@@ -14,7 +14,6 @@ from game.coach.instructions import Pose
 from game.coach.kinds.ana_by_belief import AnaByBelief
 from game.coach.levels import LevelState
 from game.coach.presets import Preset
-from game.world.events import LevelWish
 from game.world.geometry import Cell
 
 _OCCASIONS: dict[str, tuple[Occasion, ...]] = {
@@ -52,19 +51,20 @@ class Ana(Guide[LevelState]):
         state = self.state
         return self._enter(state.rescued(self._preset) if rescued else state.given_up(), at_ms)
 
-    def asked(self, want: LevelWish) -> None:
-        self.state = self.state.asked(want)
-
     def choose(self, occasion: Occasion, at_ms: int, pose: Pose, goal: str) -> list[CoachRecord]:
-        if occasion == "time" and self._preset.every_ms is not None:
-            self._next_choice_ms = at_ms + self._preset.every_ms
-        if occasion == "lost" and self._preset.lowers_when_lost:
-            return self._enter(self.state.lowered(), at_ms, judged=False)
-        if occasion not in (*_OCCASIONS[self._preset.evaluate], "asked"):
+        preset = self._preset
+        match occasion:
+            case "time" if preset.every_ms is not None:
+                self._next_choice_ms = at_ms + preset.every_ms
+            case "lost" if preset.lowers_when_lost:
+                return self._enter(self.state.lowered(), at_ms, judged=False)
+            case "simpler" | "shorter":
+                self.state = self.state.asked(occasion)
+        if occasion not in _OCCASIONS[preset.evaluate]:
             return []
         comprehension = self.cycle.evaluate().belief.comprehension
         assert comprehension is not None
-        thresholds = self.state.thresholds(self._preset)
+        thresholds = self.state.thresholds(preset)
         return [
             evaluation_record(comprehension, thresholds, at_ms),
             *self._enter(self.cycle.adapt(self.state), at_ms),

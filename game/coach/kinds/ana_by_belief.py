@@ -13,11 +13,18 @@ from game.coach.instructions import Pose
 from game.coach.kinds.knowledge import DecisionPoint, LevelChoice, hopeful, judged
 from game.coach.knowledge.assumed import ASSUMED, Assumed
 from game.coach.knowledge.learner import KnowledgeLearner
-from game.coach.levels import verdict
+from game.coach.levels import opposite, thresholds, verdict
 from game.coach.model import Component, HumanModel
 from game.coach.presets import Preset
 from game.world.geometry import Cell
 
+_OCCASIONS: Mapping[Occasion, ChoiceReason] = {
+    "goal": "soonest",
+    "lost": "lost",
+    "simpler": "asked",
+    "shorter": "asked",
+}
+"""When it chooses, and what the journal gives as the reason."""
 _LEVELS: Mapping[str, Level] = {"lower": Level.C1, "keep": Level.C2, "raise": Level.C3}
 
 
@@ -40,13 +47,14 @@ class BeliefThresholds:
         chance = known.by_room[room.name]
         if point.occasion == "goal":
             chance = hopeful(chance, known.share_sd, self.assumed.optimism)
-        said = verdict(chance, self.preset.lower_below, self.preset.raise_above)
-        return replace(state, level=_LEVELS[said])
+        said = verdict(chance, *thresholds(self.preset, state.preference))
+        kept = opposite(point.occasion, state.level, _LEVELS[said])
+        return state if kept else replace(state, level=_LEVELS[said])
 
 
 class AnaByBelief(Guide[LevelChoice]):
-    """Chooses the level of each goal, and again for a rescuer who is lost, by what `knowledge`
-    learns."""
+    """Chooses the level of each goal, and again for a rescuer who is lost or asks for other words,
+    by what `knowledge` learns."""
 
     def __init__(self, briefing: Briefing, preset: Preset) -> None:
         self._learner = KnowledgeLearner(briefing, ASSUMED)
@@ -61,14 +69,17 @@ class AnaByBelief(Guide[LevelChoice]):
         self._learner.goal_given_up()
 
     def choose(self, occasion: Occasion, at_ms: int, pose: Pose, goal: str) -> list[CoachRecord]:
-        if occasion not in ("goal", "lost"):
+        if occasion not in _OCCASIONS:
             return []
-        if occasion == "lost" and self.bar.shown is not None:
-            self._learner.lost(self.bar.shown)
+        match occasion:
+            case "lost" if self.bar.shown is not None:
+                self._learner.lost(self.bar.shown)
+            case "simpler" | "shorter":
+                self._learner.asked(occasion)
+                self.state = self.state.asked(occasion)
         before, model = self.level, self.cycle.evaluate()
-        why: ChoiceReason = "lost" if occasion == "lost" else "soonest"
         point = DecisionPoint(occasion, self.lead.scene, pose, goal)
-        self.state = self.cycle.adapt(LevelChoice(before, point, why=why))
+        self.state = self.cycle.adapt(replace(self.state, point=point, why=_OCCASIONS[occasion]))
         records: list[CoachRecord] = [judged(at_ms, self.state, model)]
         if self.level is not before and self.bar.shown is not None:
             records.append(LevelChanged(at_ms, before, self.level))

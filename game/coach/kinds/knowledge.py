@@ -15,7 +15,9 @@ from game.coach.instructions import Pose, Scene
 from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizMark
 from game.coach.knowledge.learner import KnowledgeLearner
 from game.coach.knowledge.times import LED, Habits, LegTimes
+from game.coach.levels import opposite, preferring
 from game.coach.model import Component, HumanModel, KnownRooms, Reward
+from game.world.events import LevelWish
 from game.world.geometry import Cell
 
 DECIMALS = 6
@@ -34,13 +36,19 @@ class DecisionPoint:
 
 @dataclass(frozen=True)
 class LevelChoice:
-    """The state of the coach: the level in force; with a `point`, one that is to be reconsidered
-    there. `expected_ms` and `why` are what the choice was made by."""
+    """The state of the coach: the level in force and the rescuer's `preference` (as in
+    `LevelState`); with a `point`, a level that is to be reconsidered there. `expected_ms` and `why`
+    are what the choice was made by."""
 
     level: Level
+    preference: int = 0
     point: DecisionPoint | None = None
     expected_ms: Mapping[Level, float] = field(default_factory=dict)
     why: ChoiceReason = "soonest"
+
+    def asked(self, want: LevelWish) -> LevelChoice:
+        """The state after the rescuer has asked for other words."""
+        return replace(self, preference=preferring(self.preference, want))
 
 
 class SoonestLevel:
@@ -58,8 +66,8 @@ class SoonestLevel:
         led_ms = self._led(point, known)
         match point.occasion:
             case "lost":
-                level = Level.C1 if state.level is Level.C2 else _least(led_ms)
-                return LevelChoice(level, point, led_ms, "lost")
+                level = Level.C1 if state.level is Level.C2 else self._liked(led_ms, state)
+                return replace(state, level=level, expected_ms=led_ms, why="lost")
             case "step":
                 return self._in_doubt(state, point, known, led_ms)
             case _:
@@ -73,16 +81,35 @@ class SoonestLevel:
         known: KnownRooms,
         led_ms: dict[Level, float],
     ) -> LevelChoice:
-        """The level by which the goal is reached soonest; the one in force if that is as good."""
+        """The level by which the goal is reached soonest; the one in force if that is as good. What
+        the rescuer has asked for counts like time, and a request is not answered by its opposite.
+        """
         expected_ms = dict(led_ms)
         at_c3 = self._by_name(point, model, known, min(led_ms.values()))
         if at_c3 is not None:
             expected_ms[Level.C3] = at_c3
-        best = _least(expected_ms)
-        gain_ms = round(expected_ms.get(state.level, inf) - expected_ms[best], DECIMALS)
-        if best is not state.level and gain_ms <= self._assumed.switch_gain_ms:
-            return LevelChoice(state.level, point, expected_ms, "stays")
-        return LevelChoice(best, point, expected_ms, "soonest")
+        best, asked = self._liked(expected_ms, state), point.occasion in ("simpler", "shorter")
+        if asked and opposite(point.occasion, state.level, best):
+            best = state.level
+        in_force_ms = expected_ms.get(state.level, inf) + self._dislike_ms(state.level, state)
+        best_ms = expected_ms[best] + self._dislike_ms(best, state)
+        least_ms = 0.0 if asked else self._assumed.switch_gain_ms
+        if best is state.level or round(in_force_ms - best_ms, DECIMALS) <= least_ms:
+            why: ChoiceReason = "soonest" if best is state.level else "stays"
+            return replace(state, expected_ms=expected_ms, why=why)
+        why = "asked" if asked else "soonest"
+        return replace(state, level=best, expected_ms=expected_ms, why=why)
+
+    def _dislike_ms(self, level: Level, state: LevelChoice) -> float:
+        """What the rescuer's preference adds to the expected time of `level`."""
+        return state.preference * self._assumed.asked_ms * (level - Level.C1)
+
+    def _liked(self, expected_ms: Mapping[Level, float], state: LevelChoice) -> Level:
+        """The level with the least expected time, preference included; the lower of two equal."""
+        return min(
+            expected_ms,
+            key=lambda it: (round(expected_ms[it] + self._dislike_ms(it, state), DECIMALS), it),
+        )
 
     def _in_doubt(
         self,
@@ -100,7 +127,12 @@ class SoonestLevel:
         stay_ms = chance * rest_ms + (1 - chance) * unknown_ms
         if round(stay_ms - best_ms, DECIMALS) <= assumed.help_gain_ms:
             return state
-        return LevelChoice(_least(led_ms), point, {**led_ms, Level.C3: stay_ms}, "looks_lost")
+        return replace(
+            state,
+            level=self._liked(led_ms, state),
+            expected_ms={**led_ms, Level.C3: stay_ms},
+            why="looks_lost",
+        )
 
     def _led(self, point: DecisionPoint, known: KnownRooms) -> dict[Level, float]:
         scene, pose, goal = point.scene, point.pose, point.goal
@@ -152,12 +184,16 @@ class KnowledgeCoach(Guide[LevelChoice]):
     def choose(self, occasion: Occasion, at_ms: int, pose: Pose, goal: str) -> list[CoachRecord]:
         if not self._may_choose(occasion):
             return []
-        if occasion == "lost" and self.bar.shown is not None:
-            self._learner.lost(self.bar.shown)
+        match occasion:
+            case "lost" if self.bar.shown is not None:
+                self._learner.lost(self.bar.shown)
+            case "simpler" | "shorter":
+                self._learner.asked(occasion)
+                self.state = self.state.asked(occasion)
         scene, before = self.lead.scene, self.state.level
         model = self.cycle.evaluate()
         point = DecisionPoint(occasion, scene, pose, goal)
-        self.state = self.cycle.adapt(LevelChoice(before, point))
+        self.state = self.cycle.adapt(replace(self.state, point=point))
         if occasion == "goal":
             self._learner.set_out(at_ms, scene, pose, goal, self.level)
         elif self.level is before:
@@ -171,7 +207,7 @@ class KnowledgeCoach(Guide[LevelChoice]):
 
     def _may_choose(self, occasion: Occasion) -> bool:
         match occasion:
-            case "goal" | "misstep":
+            case "goal" | "misstep" | "simpler" | "shorter":
                 return True
             case "completed":
                 return self.bar.shown is not None and not self.bar.shown.instruction.treats
@@ -203,7 +239,3 @@ def judged(at_ms: int, choice: LevelChoice, model: HumanModel) -> KnowledgeJudge
         chosen=choice.level,
         why=choice.why,
     )
-
-
-def _least(expected_ms: Mapping[Level, float]) -> Level:
-    return min(expected_ms, key=lambda level: (round(expected_ms[level], DECIMALS), level))

@@ -47,6 +47,9 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     lost_evidence: float = 2.0
     """Log odds against knowing the way when a rescuer has stood, paced or circled for so long that
     the coach notices (judgement)."""
+    asked_evidence: float = 1.0
+    """Log odds against knowing the way in a request for simpler words while walking to a room by
+    its name, and for it in one for shorter words (judgement)."""
     quiz_right: tuple[float, float] = (0.95, 0.25)
     quiz_wrong: tuple[float, float] = (0.03, 0.45)
     quiz_blank: tuple[float, float] = (0.02, 0.30)
@@ -109,6 +112,9 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     switch_gain_ms: float = 1_000.0
     """Another level must save so much: switching costs attention (chosen: fewer switches, no fewer
     rescues)."""
+    asked_ms: float = 2_000.0
+    """What each request for simpler words adds to the expected time of a level for each level that
+    it lies above C1; one for shorter words takes it off (judgement: a few decide most legs)."""
     show_ms: float = 2_000.0
     """How long it takes until a walk shows that the room is not known."""
     doubt_below: float = 0.6

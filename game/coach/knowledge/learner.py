@@ -15,7 +15,7 @@ from game.coach.knowledge.assumed import Assumed, QuizMark
 from game.coach.knowledge.rooms import RoomKnowledge, RoomWalk, StepChances
 from game.coach.knowledge.times import LED, Habits, LegTimes, first_words
 from game.coach.model import Component, HumanModel, Learned
-from game.world.events import Acted, Action, MissionEvent, Outcome, TreatmentStarted
+from game.world.events import Acted, Action, LevelWish, MissionEvent, Outcome, TreatmentStarted
 from game.world.geometry import Cell
 from game.world.observation import Observation
 
@@ -128,6 +128,12 @@ class KnowledgeLearner:
         if self._walk is not None:
             self._walk.add(-self._assumed.lost_evidence)
 
+    def asked(self, want: LevelWish) -> None:
+        """The rescuer asked for other words: whoever looks for a room asks for simpler ones."""
+        if self._walk is not None and self._walk.room not in self._in_view:
+            evidence = self._assumed.asked_evidence
+            self._walk.add(-evidence if want == "simpler" else evidence)
+
     def _arrived(self, victim: str, at_ms: int) -> None:
         self._settle()
         leg, self._leg = self._leg, None
@@ -146,7 +152,7 @@ class KnowledgeLearner:
         """Take note of new words; the walk goes on where they name the same room."""
         if self._shown is not None and self._shown.number == shown.number:
             return
-        self._shown, self._unread = shown, True
+        self._shown, self._unread = shown, shown.reason != "restated"
         instruction = shown.instruction
         action, room = instruction.tuples[0]
         if instruction.shown_level is not Level.C3 or action != "Goto":

@@ -32,7 +32,7 @@ from game.screens.widgets.signals import lead_out
 from game.screens.widgets.theme import THEMES, theme_name
 from game.world import load_building
 from game.world.building import Building
-from game.world.settings import MissionSettings
+from game.world.settings import FREE_PLAY, MissionSettings
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
@@ -193,7 +193,7 @@ class AnaApp(App[None], inherit_bindings=False):
 
         kind, _, level = self.preferences.coach.partition("-")
         seed = int.from_bytes(os.urandom(4))
-        settings = self._options.settings if self._options else MissionSettings()
+        settings = self._options.settings if self._options else FREE_PLAY
         return PlayOptions(
             load_building(self.preferences.building),
             parse_coach(kind, int(level) if level else None),

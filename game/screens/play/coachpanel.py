@@ -30,6 +30,7 @@ _WHY: dict[ChoiceReason, str] = {
     "stays": "another gains too little",
     "looks_lost": "seems not to know the way",
     "lost": "has not come nearer",
+    "asked": "you asked for it",
 }
 BAR_COLUMNS = 12
 """The longest bar of an expected time."""

@@ -7,7 +7,7 @@ from game.journal.records import Paused, Unpaused
 from game.journal.writer import Journal
 from game.session.playing import end_free_play
 from game.session.run import MissionRun
-from game.world.events import Action
+from game.world.events import Action, LevelWish
 from game.world.observation import Observation
 from game.world.settings import MissionSettings
 
@@ -68,6 +68,11 @@ class LiveMission:
         """Act now. Nothing happens while the mission is paused."""
         if not self.paused:
             self.run.press(action, self._clock.now_ms())
+
+    def ask_level(self, want: LevelWish) -> None:
+        """Ask the coach for other words now. Nothing happens while the mission is paused."""
+        if not self.paused and not self.ended:
+            self.run.ask_level(want, self._clock.now_ms())
 
     def advance(self) -> None:
         """Let happen what is due."""

@@ -22,9 +22,12 @@ from game.screens.play.live import LiveMission
 from game.screens.play.missionview import MissionView
 from game.screens.widgets.dialogs import Help, Notice, Pause, leave_question
 from game.screens.widgets.statuspanel import next_change_ms
-from game.world.events import Action
+from game.world.events import Action, LevelWish
 from game.world.observation import Observation
 from game.world.settings import Controls
+
+ASKED_S = 2.0
+"""How long what the level key asked for stands on the screen."""
 
 _ACTIONS: dict[Controls, dict[str, Action]] = {
     "compass": {
@@ -196,7 +199,13 @@ class LiveScreen(Screen[None]):
         self.app.post_message(Finished(self.journal, complete=complete))
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        return self.live.settings.allow_pause if action == "pause" else True
+        match action:
+            case "pause":
+                return self.live.settings.allow_pause
+            case "ask":
+                return self.live.settings.level_key
+            case _:
+                return True
 
     def action_pause(self) -> None:
         self.app.push_screen(Pause(self._help), self._left)
@@ -206,7 +215,11 @@ class LiveScreen(Screen[None]):
 
     def _help(self) -> Help:
         settings = self.live.settings
-        return Help(turning=settings.controls == "turn", pausing=settings.allow_pause)
+        return Help(
+            turning=settings.controls == "turn",
+            pausing=settings.allow_pause,
+            asking=settings.level_key,
+        )
 
     def action_leave(self) -> None:
         self.app.push_screen(leave_question(), self._left)
@@ -226,6 +239,8 @@ class MissionScreen(LiveScreen):
         Binding("down,s,j,S,J", "act('down')", "South", id="mission.down"),
         Binding("left,a,h,A,H", "act('left')", "West", id="mission.left"),
         Binding("space", "act('triage')", "Treat", id="mission.triage"),
+        Binding("plus,equals_sign", "ask('simpler')", "Simpler words", id="mission.simpler"),
+        Binding("minus,underscore", "ask('shorter')", "Shorter words", id="mission.shorter"),
     ]
 
     def action_act(self, name: str) -> None:
@@ -235,3 +250,16 @@ class MissionScreen(LiveScreen):
         with self.kept():
             self.live.press(action)
         self.refresh_view()
+
+    def asked_words(self, want: LevelWish) -> str:
+        """What is shown when the level key has been pressed."""
+        return f"You asked for {want} words"
+
+    def action_ask(self, want: LevelWish) -> None:
+        if self._over:
+            return
+        with self.kept():
+            self.live.ask_level(want)
+        self.refresh_view()
+        self.app.clear_notifications()
+        self.notify(self.asked_words(want), timeout=ASKED_S)

@@ -18,7 +18,8 @@ from game.screens.study.pages import Signs
 from game.screens.study.timed import TICK_S
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Playing
-from game.study.texts import Page
+from game.study.texts import LevelKeyWords, Page
+from game.world.events import LevelWish
 
 
 class StudyMission(LiveMission):
@@ -69,11 +70,14 @@ class StudyMissionScreen(MissionScreen):
     ]
     live: StudyMission
 
-    def __init__(self, frame: Frame, live: StudyMission, reminder: Page) -> None:
+    def __init__(
+        self, frame: Frame, live: StudyMission, reminder: Page, level_key: LevelKeyWords
+    ) -> None:
         super().__init__(live, live.task.home / JOURNAL)
         self.view.status.timed = self._is_mission
         self.frame = frame
         self.reminder = reminder
+        self.level_key = level_key
 
     @property
     def _is_mission(self) -> bool:
@@ -96,6 +100,9 @@ class StudyMissionScreen(MissionScreen):
         super().refresh_view()
         if self.live.task.done:
             self._finish()
+
+    def asked_words(self, want: LevelWish) -> str:
+        return self.level_key.of(want)
 
     def action_help(self) -> None:
         turning = self.live.settings.controls == "turn"

@@ -23,7 +23,7 @@ from game.screens.study.sliders import SlidersScreen
 from game.study.protocol.conduct import Stopped
 from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize
-from game.study.texts import Consent, Page, Texts
+from game.study.texts import Consent, Page, Texts, followed
 from game.world.building import Building
 from game.world.settings import MissionSettings
 
@@ -76,7 +76,12 @@ class ScreenParticipant:
     async def play(self, task: Playing) -> None:
         app = self._app
         self._mission_over = asyncio.get_running_loop().create_future()
-        screen = StudyMissionScreen(self._frame, StudyMission(task), self._texts.lessons.walking)
+        reminder: Page = self._texts.lessons.walking
+        if self._rules.level_key:
+            reminder = followed(reminder, self._texts.level_key.text)
+        screen = StudyMissionScreen(
+            self._frame, StudyMission(task), reminder, self._texts.level_key
+        )
         await app.push_screen(screen)
         complete = await self._mission_over
         while app.screen is not screen:

@@ -112,14 +112,14 @@ class Help(ModalScreen[None]):
         Binding("ctrl+q,ctrl+c", "close", id="help.close.ctrl"),
     ]
 
-    def __init__(self, *, turning: bool, pausing: bool) -> None:
+    def __init__(self, *, turning: bool, pausing: bool, asking: bool) -> None:
         super().__init__()
-        self._turning, self._pausing = turning, pausing
+        self._turning, self._pausing, self._asking = turning, pausing, asking
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog wide"):
             with VerticalScroll():
-                yield HowTo(turning=self._turning, pausing=self._pausing)
+                yield HowTo(turning=self._turning, pausing=self._pausing, asking=self._asking)
             yield KeyLine(("Enter", "Back to the mission"))
 
     def action_close(self) -> None:

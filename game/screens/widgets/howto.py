@@ -49,11 +49,12 @@ _BESIDE = 52
 """from this column on."""
 
 
-def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool) -> list[Row]:
+def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool, asking: bool) -> list[Row]:
     """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
     long = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
     short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
-    others = [("P", "pause")] if pausing else []
+    others = [("+ -", "simpler or shorter words")] if asking else []
+    others += [("P", "pause")] if pausing else []
     others += [("?", "this help"), ("Q", "leave")]
     return [
         _heading("Rescue as many victims as you can. The yellow bar guides you."),
@@ -109,13 +110,15 @@ class HowTo(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "title", "key", "quiet", "example"}
 
-    def __init__(self, *, turning: bool = False, pausing: bool = True) -> None:
+    def __init__(self, *, turning: bool = False, pausing: bool = True, asking: bool = True) -> None:
         super().__init__()
-        self._turning, self._pausing = turning, pausing
+        self._turning, self._pausing, self._asking = turning, pausing, asking
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw(howto_rows(glyphs, turning=self._turning, pausing=self._pausing))
+        self.draw(
+            howto_rows(glyphs, turning=self._turning, pausing=self._pausing, asking=self._asking)
+        )
 
 
 class HowToScreen(Screen[None]):

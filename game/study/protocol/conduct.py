@@ -42,7 +42,7 @@ from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.protocol.timeline import Point, next_point
 from game.study.study_settings import ScreenSize, StudySettings
-from game.study.texts import LIKERT_POINTS, Consent, Page, filled, preceded
+from game.study.texts import LIKERT_POINTS, Consent, Page, filled, followed, preceded
 from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
 
@@ -255,7 +255,7 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
         reds=str(sum(site.severity is Severity.RED for site in building.victims)),
         instructor=texts.instructors.of(step.round),
     )
-    await who.read(page)
+    await who.read(followed(page, texts.level_key.text) if rules.level_key else page)
     await _start(session, step, rules.duration_ms)
     quiz = quiz_marks(session.history, building, step.round)
     spec = instructor(await _allocated(session), step.round, study.settings, quiz)
