@@ -31,7 +31,7 @@ PARTICIPANTS_EACH = 48
 SEED = 2024
 BLOCK = 24
 MADE = ("study", "presets", "tables", "figures", "notebooks", "report")
-DEFAULT_PRESET = 'preset = "calibrated"'
+DEFAULT_PRESET = 'preset = "floodfill"'
 
 
 @click.command()

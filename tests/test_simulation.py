@@ -151,7 +151,7 @@ def test_another_seed_people_or_preset_are_refused_in_a_folder(study: Path) -> N
     refusals: list[tuple[dict[str, object], str]] = [
         ({"seed": SEED + 1}, "seed 5"),
         ({"population": POPULATIONS["hasty"]}, "simulated default"),
-        ({"preset": "literal"}, "preset calibrated"),
+        ({"preset": "literal"}, "preset floodfill"),
     ]
     before = files(study)
     for change, named in refusals:

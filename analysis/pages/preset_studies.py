@@ -12,7 +12,7 @@ from analysis.sources.recorded import Recorded
 from analysis.stats.groups import grouped
 
 FILE = "behaviour.csv.gz"
-PRESETS = ("calibrated", "literal", "fig10", "released")
+PRESETS = ("floodfill", "calibrated", "literal", "fig10", "released")
 POPULATIONS = ("default", "hasty", "careful")
 #: What tells the studies apart: the coach's preset and the kind of people.
 BY = ["preset", "people"]

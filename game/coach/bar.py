@@ -48,6 +48,7 @@ class Bar:
         self.open = False
         self._number = 0
         self._track: frozenset[Pose] = frozenset()
+        self._ahead: set[Pose] = set()
         self._compliance = NOTHING_ASKED
         self._treated_instead: set[str] = set()
         self._left: int | None = None
@@ -75,7 +76,7 @@ class Bar:
             self._compliance = self._compliance.restated(shown_level, distance)
         else:
             self._compliance = self._compliance.issued(
-                shown_level, distance, at_ms, _opening(instruction), notice
+                shown_level, distance, at_ms, *_opening_and_rest(instruction), notice
             )
         self._number += 1
         told = ToldWay(scene, instruction)
@@ -83,6 +84,7 @@ class Bar:
         self.open = True
         self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)
+        self._ahead = set(self._track) - {pose}
         self.guidance = Guidance(instruction.text, notice)
         return InstructionIssued(
             at_ms,
@@ -205,8 +207,12 @@ class Bar:
         )
 
     def _comes_nearer(self, told: ToldWay, observation: Observation) -> bool:
-        """Whether there is less of the told way left than ever, or more seen of the room in which
-        the victim has to be looked for."""
+        """Whether a pose of the told way was taken for the first time, there is less of it left
+        than ever, or more has been seen of the room where the victim has to be looked for."""
+        pose = Pose(observation.position, observation.heading)
+        if pose in self._ahead:
+            self._ahead.remove(pose)
+            return True
         left, before = told.left(observation.position), self._left
         if left is not None and (before is None or left < before):
             self._left = left
@@ -224,12 +230,13 @@ class Bar:
         return found and scene.building.room_at(observation.position) is room
 
 
-def _opening(instruction: Instruction) -> str:
-    """The words that say what to do next: as far as the first sentence that is no mere turn."""
+def _opening_and_rest(instruction: Instruction) -> tuple[str, str]:
+    """The words that say what to do next, as far as the first sentence that is no mere turn, and
+    the others."""
     turns = 0
     for action, _ in instruction.tuples:
         if action != "Turn":
             break
         turns += 1
     sentences = instruction.text.split(". ")
-    return ". ".join(sentences[: turns + 1])
+    return ". ".join(sentences[: turns + 1]), ". ".join(sentences[turns + 1 :])

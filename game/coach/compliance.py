@@ -31,9 +31,10 @@ NOTICE_MS, NOTICE_MS_PER_LETTER = 2_000, 60
 """How long a notice is left to be read, at a pace that suits anybody, before another may take its
 place."""
 
-LOST_MS = 10_000
+LOST_MS, MOST_LOST_MS = 10_000, 11_900
 """A rescuer who has not come any nearer for so long is lost, whether standing, pacing or going
-round; longer than anybody needs to read the longest instruction at half the usual speed."""
+round: the first, or as long as it takes to read the words at half the usual speed, but never more
+than the second."""
 
 STRICT_LEVELS = frozenset({Level.C1, Level.C2})
 """The levels at which a misstep that follows another is disobedience: what they say can be done
@@ -47,8 +48,9 @@ class Compliance:
     `most`, `least` and `distance` are the largest cost-to-go since then, the smallest and the
     present one; `rising` is whether the last action raised it, which happened at `at_ms`. Until
     `read_ms` the words cannot have been read; until `notice_ms` no notice may replace the last;
-    `nearer_ms` is when the rescuer last came nearer, or was told something new. `warned` is whether
-    a strict misstep was corrected since an instruction was completed.
+    `nearer_ms` is when the rescuer last came nearer, or was told something new, and `patience_ms`
+    how long after that they are lost. `warned` is whether a strict misstep was corrected since an
+    instruction was completed.
     """
 
     level: Level
@@ -60,13 +62,22 @@ class Compliance:
     read_ms: int = 0
     notice_ms: int = 0
     nearer_ms: int = 0
+    patience_ms: int = LOST_MS
     warned: bool = False
 
     def issued(
-        self, level: Level, distance: int, at_ms: int, opening: str, notice: str = ""
+        self,
+        level: Level,
+        distance: int,
+        at_ms: int,
+        opening: str,
+        rest: str = "",
+        notice: str = "",
     ) -> Compliance:
-        """Another instruction stands on the bar, whose `opening` says what to do next."""
+        """Another instruction stands on the bar, whose `opening` says what to do next; `rest` are
+        its other words."""
         read_ms = at_ms + READING_MS + READING_MS_PER_LETTER * (len(opening) + len(notice))
+        slowly_ms = 2 * (READING_MS + READING_MS_PER_LETTER * len(opening + rest + notice))
         notice_ms = self.notice_ms
         if notice:
             notice_ms = at_ms + NOTICE_MS + NOTICE_MS_PER_LETTER * len(notice)
@@ -79,6 +90,7 @@ class Compliance:
             read_ms=read_ms,
             notice_ms=notice_ms,
             nearer_ms=at_ms,
+            patience_ms=min(MOST_LOST_MS, max(LOST_MS, slowly_ms)),
             warned=self.warned,
         )
 
@@ -137,7 +149,7 @@ class Compliance:
     @property
     def lost_at_ms(self) -> int:
         """When the rescuer will be lost, if there is no progress until then."""
-        return self.nearer_ms + LOST_MS
+        return self.nearer_ms + self.patience_ms
 
     def corrected(self) -> Compliance:
         """The misstep has been noted."""

@@ -14,6 +14,7 @@ import msgspec
 from game.coach.own import SEPARATOR
 from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
+from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
 from game.world.settings import MissionSettings
 
@@ -78,7 +79,7 @@ class StudySettings(_Section, frozen=True):
     buildings: tuple[str, str]
     practice_building: str
     coach: str = ADAPTIVE
-    preset: str = "calibrated"
+    preset: str = DEFAULT_PRESET
     memorise_seconds: tuple[int, int] = (60, 180)
     label_seconds: int = 240
     refill_dropouts: bool = False

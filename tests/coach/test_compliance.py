@@ -110,14 +110,14 @@ def test_a_second_misstep_is_disobedience_unless_something_was_completed_between
     first = walk(Level.C1, [5, 6])[-1]
     assert first.misstep
     assert not first.disobeys
-    again = first.corrected().issued(Level.C1, 6, LATER_MS, WORDS, NOTICE)
+    again = first.corrected().issued(Level.C1, 6, LATER_MS, WORDS, notice=NOTICE)
     assert again.acted(7, 2 * LATER_MS).disobeys
     forgiven = again.completed().issued(Level.C1, 6, LATER_MS, WORDS)
     assert not forgiven.acted(7, 2 * LATER_MS).disobeys
 
 
 def test_missteps_while_a_notice_is_being_read_belong_to_it() -> None:
-    state = walk(Level.C1, [5, 6])[-1].corrected().issued(Level.C1, 6, 0, WORDS, NOTICE)
+    state = walk(Level.C1, [5, 6])[-1].corrected().issued(Level.C1, 6, 0, WORDS, notice=NOTICE)
     notice_ms = NOTICE_MS + NOTICE_MS_PER_LETTER * len(NOTICE)
     missteps, disobeyed, distance = 0, [], 6
     for at_ms in range(0, 3 * notice_ms, STEP_MS):
@@ -127,7 +127,7 @@ def test_missteps_while_a_notice_is_being_read_belong_to_it() -> None:
         if state.misstep and state.may_notice:
             disobeyed.append(at_ms)
             assert state.disobeys
-            state = state.corrected().issued(Level.C1, distance, at_ms, WORDS, NOTICE)
+            state = state.corrected().issued(Level.C1, distance, at_ms, WORDS, notice=NOTICE)
         elif state.astray:
             assert not state.disobeys
             state = state.restated(Level.C1, distance)

@@ -206,3 +206,13 @@ def test_settings_are_the_missions_and_not_todays() -> None:
     slow = MissionSettings(duration_ms=30_000, red_expiry_ms=29_000, treat_blue_ms=9_000)
     assert slow != SETTINGS
     assert verified(played(settings=slow)).reproduced
+
+
+@pytest.mark.parametrize(("rules", "release"), [(1, "before 0.1.0"), (2, "0.1.0"), (99, "another")])
+def test_the_release_that_verifies_other_rules_is_named(rules: int, release: str) -> None:
+    line = line_of("mission_started")
+    verification = verified(edited(line, rules_version=rules))
+    difference = verification.difference
+    assert difference is not None
+    assert (difference.line, difference.field) == (line, "rules_version")
+    assert release in str(difference)

@@ -55,11 +55,11 @@ def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool, asking: bool) 
     short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
     others = [("+ -", "simpler or shorter words")] if asking else []
     others += [("P", "pause")] if pausing else []
-    others += [("?", "this help"), ("Q", "leave")]
+    others += [("?", "help"), ("Q", "leave")]
     return [
         _heading("Rescue as many victims as you can. The yellow bar guides you."),
         *walking_rows(turning=turning),
-        tuple(run for row in _keys(others) for run in row),
+        tuple(run for key, does in others for run in _key(f" {key} ", does)),
         BLANK,
         _heading("What you see"),
         *beside(long, short, _BESIDE),
@@ -86,7 +86,11 @@ def _sign(glyphs: GlyphSet, kind: Kind, meaning: str) -> Row:
 
 
 def _keys(keys: Iterable[tuple[str, str]]) -> list[Row]:
-    return [((_MARGIN, ""), (f" {key:^7} ", "key"), (f"  {does}", "")) for key, does in keys]
+    return [_key(f" {key:^7} ", does) for key, does in keys]
+
+
+def _key(key: str, does: str) -> Row:
+    return ((_MARGIN, ""), (key, "key"), (f"  {does}", ""))
 
 
 def _heading(text: str) -> Row:
