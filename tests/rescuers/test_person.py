@@ -429,3 +429,17 @@ def test_every_character_plays(name: str) -> None:
 def test_an_unknown_character_is_named_with_the_nearest() -> None:
     with pytest.raises(AnaError, match="Did you mean stranger"):
         character("strangr")
+
+
+@pytest.mark.parametrize("controls", ["compass", "turn"])
+def test_no_wrong_key_ends_a_mission_in_an_error(controls: Controls) -> None:
+    rules = replace(SETTINGS, controls=controls)
+    for seed in range(20):
+        traits = replace(drawn(POPULATIONS["hasty"], seed), slip=0.25, stray=0.8)
+        building = (HARBOUR, FOUNDRY, PRACTICE)[seed % 3]
+        memory = memorised(building, MINUTE_MS, traits, stream(seed, "map"))
+        for level in (2, 3):
+            happened, _ = played(
+                building, parse_coach("static", level), memory, traits, seed, rules
+            )
+            assert happened

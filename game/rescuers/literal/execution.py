@@ -179,8 +179,11 @@ class Walker:
         return now
 
     def _step_to(self, now: Observation, cell: Cell) -> Doing:
-        """One step onto a neighbouring cell."""
-        self._facing = next(way for way in Heading if way.from_cell(now.position) == cell)
+        """One step onto a neighbouring cell. Raises `Stuck` where it is none, as after a slip."""
+        facing = next((way for way in Heading if way.from_cell(now.position) == cell), None)
+        if facing is None:
+            raise Stuck
+        self._facing = facing
         return (yield from self._step(now))
 
     def _exit_room(self, now: Observation) -> Doing:

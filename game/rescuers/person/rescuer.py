@@ -181,6 +181,14 @@ class BoundedPerson:
         except StopIteration:
             return now
 
+    def _tried(self, doing: Doing, now: Observation) -> Doing:
+        """Do something of one's own, as far as it goes: a wrong key may lead off the way."""
+        self._latest = now
+        try:
+            return (yield from self._watched(doing, now))
+        except Stuck:
+            return self._latest
+
     def _reading_ms(self, words: str, now: Observation) -> int:
         return self._thought_ms(len(words.split()) * self._traits.ms_per_word, now)
 
@@ -216,7 +224,7 @@ class BoundedPerson:
         moved = False
         while not moved or now.time_ms < until_ms:
             way = self._way_somewhere(now)
-            now = yield from self._watched(walker.go_along(now, way), now)
+            now = yield from self._tried(walker.go_along(now, way), now)
             moved = True
         self._puzzled = False
         return now
@@ -238,11 +246,11 @@ class BoundedPerson:
         unseen = frozenset(self._memory.sites) - self._glimpsed
         aim = self._memory.nearest(now.terrain.floodfills, now.position, unseen)
         if aim is not None:
-            now = yield from self._watched(walker.head_for(now, aim), now)
+            now = yield from self._tried(walker.head_for(now, aim), now)
         for severity in Severity:
             for victim in looking.waiting(now, severity):
                 ways = looking.ways_to_nearest(now.position, victim.__eq__, now.plan.walkable)
-                now = yield from self._watched(walker.treat_at(now, ways[0]), now)
+                now = yield from self._tried(walker.treat_at(now, ways[0]), now)
         self._roaming = False
         self._bar = now.guidance or self._bar
         yield from self._attend(now)
