@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol
 
 import click
 
@@ -13,9 +13,15 @@ from analysis.sources.source import holds_live_sessions
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 
-Unblind = Callable[[Path], str]
-"""Records in a study folder, unless the study is closed, that its allocation was looked at; returns
-what to tell of that."""
+
+class Unblinding(Protocol):
+    """What the command is given by the game."""
+
+    def unblind(self, folder: Path) -> str:
+        """Record in a study folder, unless the study is closed, that its allocation was looked at;
+        return what to tell of that."""
+        ...
+
 
 _PATH = click.Path(path_type=Path)
 
@@ -31,7 +37,7 @@ _PATH = click.Path(path_type=Path)
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
 def command(
-    unblind: Unblind,
+    game: Unblinding,
     source: Path,
     out: Path,
     figures: Path | None,
@@ -48,7 +54,7 @@ def command(
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):
-            click.echo(unblind(source), err=True, nl=False)
+            click.echo(game.unblind(source), err=True, nl=False)
 
     result = analyse_source(source, quiz, figures, mode, check=check, tick=_tell, loaded=loaded)
     try:

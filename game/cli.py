@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import click
 
@@ -47,6 +47,9 @@ STATUS_INTERRUPTED = 130
         LazyCommand(
             "simulate", "game.commands.ana_simulate:simulate_command", "Simulate a whole study."
         ),
+        LazyCommand(
+            "compare", "analysis.compare:command", "Compare coaches on the same simulated people."
+        ),
         LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
         LazyCommand(
             "doctor",
@@ -83,7 +86,7 @@ def main(args: Sequence[str] | None = None) -> int:
     try:
         status = cast(
             "int | None",
-            ana.main(args, prog_name="ana", standalone_mode=False, obj=_record_analysis),
+            ana.main(args, prog_name="ana", standalone_mode=False, obj=_GameSide()),
         )
     except click.UsageError as error:
         return _refuse(error.format_message(), hint=_help_hint(error.ctx))
@@ -96,11 +99,20 @@ def main(args: Sequence[str] | None = None) -> int:
     return status or 0
 
 
-def _record_analysis(folder: Path) -> str:
-    """Passed to the analysis, which knows nothing about studies and their ledgers."""
-    from game.commands.ana_study import record_analysis
+class _GameSide:
+    """What the analysis, which knows neither studies nor simulated people, asks of the game."""
 
-    return record_analysis(folder)
+    def unblind(self, folder: Path) -> str:
+        """Record in a study folder that its allocation was looked at; what to tell of that."""
+        from game.commands.ana_study import record_analysis
+
+        return record_analysis(folder)
+
+    def trials(self, tick: Callable[[int, int], None], **asked: Any) -> Iterator[dict[str, Any]]:
+        """Play a comparison, as `game.simulation.comparison.trials` does."""
+        from game.simulation.comparison import asked_trials
+
+        return asked_trials(tick, **asked)
 
 
 def _refuse(problem: str, hint: str = "") -> int:

@@ -9,7 +9,7 @@ import click
 
 from game.coach.presets import PRESETS
 from game.coach.spec import DEFAULT_PRESET
-from game.rescuers.person import POPULATIONS
+from game.rescuers.person import POPULATIONS, world
 from game.simulation.simulated_study import Workers, simulate
 from game.simulation.workers import cores, here, on_cluster, on_cores
 from game.study.study_settings import ADAPTIVE
@@ -27,9 +27,10 @@ from game.study.study_settings import ADAPTIVE
 @click.option(
     "--population",
     type=click.Choice(list(POPULATIONS)),
-    default="default",
-    show_default=True,
-    help="What kind of people take part.",
+    help="What kind of people take part.  [default: default]",
+)
+@click.option(
+    "--world", "people", metavar="FILE.toml", help="People of a kind of your own, instead."
 )
 @click.option(
     "--coach",
@@ -48,7 +49,8 @@ def simulate_command(
     seed: int,
     jobs: int | None,
     scheduler: str | None,
-    population: str,
+    population: str | None,
+    people: str | None,
     coach: str | None,
     preset: str | None,
 ) -> None:
@@ -57,8 +59,11 @@ def simulate_command(
     Their journals have the same form as real ones and are marked as simulated. The same seed gives
     the same journals on any machine. After an interruption, run the command again to continue.
     """
+    if population and people:
+        raise click.UsageError("give either --population or --world")
     workers = _workers(jobs, scheduler)
-    progress = simulate(folder, participants, seed, POPULATIONS[population], workers, preset, coach)
+    who = world(people or population or "default")
+    progress = simulate(folder, participants, seed, who, workers, preset, coach)
     before = next(progress)
     with click.progressbar(length=participants, label="Simulating", show_pos=True) as bar:
         bar.update(before)

@@ -434,7 +434,7 @@ def test_an_unknown_character_is_named_with_the_nearest() -> None:
 @pytest.mark.parametrize("controls", ["compass", "turn"])
 def test_no_wrong_key_ends_a_mission_in_an_error(controls: Controls) -> None:
     rules = replace(SETTINGS, controls=controls)
-    for seed in range(20):
+    for seed in range(8):
         traits = replace(drawn(POPULATIONS["hasty"], seed), slip=0.25, stray=0.8)
         building = (HARBOUR, FOUNDRY, PRACTICE)[seed % 3]
         memory = memorised(building, MINUTE_MS, traits, stream(seed, "map"))

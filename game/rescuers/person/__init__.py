@@ -5,8 +5,9 @@ Receives the Observation and nothing more, and acts through the same timed actio
 """
 
 from game.rescuers.person.memory import MapMemory, memorised
-from game.rescuers.person.parameters import POPULATIONS, Population, Traits, drawn
+from game.rescuers.person.parameters import Population, Traits, drawn
 from game.rescuers.person.rescuer import BoundedPerson
+from game.rescuers.person.worlds import POPULATIONS, world
 
 __all__ = [
     "POPULATIONS",
@@ -16,4 +17,5 @@ __all__ = [
     "Traits",
     "drawn",
     "memorised",
+    "world",
 ]

@@ -166,7 +166,7 @@ class BoundedPerson:
         for written in sentences_of(self._bar.text):
             read_ms += self._reading_ms(written, now)
             self._hands.rest_until(read_ms)
-            sentence = self._understood(parsed(written)[0], now)
+            sentence = self._understood(parsed(written)[0], now, read_ms)
             doing = walker.carry_out((sentence,), now)
             now = yield from self._watched(doing, now)
         return now
@@ -192,17 +192,28 @@ class BoundedPerson:
     def _reading_ms(self, words: str, now: Observation) -> int:
         return self._thought_ms(len(words.split()) * self._traits.ms_per_word, now)
 
-    def _understood(self, sentence: Sentence, now: Observation) -> Sentence:
-        """What the person takes a sentence to mean, and the time to make sense of it."""
+    def _understood(self, sentence: Sentence, now: Observation, read_ms: int) -> Sentence:
+        """What the person takes a sentence to mean that has been read at `read_ms`, and the time to
+        make sense of it, which comes after the reading."""
         traits, chance = self._traits, self._chance
+        read_ms = max(read_ms, now.time_ms)
         if isinstance(sentence, GoTo):
-            self._think(traits.recall_ms, now)
+            self._hands.rest_until(read_ms + self._thought_ms(traits.recall_ms, now))
         elif style_of((sentence,)) == 2:
-            self._think(traits.interpret_ms * self._unknowing, now)
+            sense_ms = self._thought_ms(traits.interpret_ms * self._unknowing, now)
+            self._hands.rest_until(read_ms + sense_ms)
         if isinstance(sentence, ProceedTo | TakeDoor):
+            if chance.random() < traits.misread:
+                sentence = self._misread(sentence)
             return replace(sentence, number=self._counted(sentence.number))
         confusing = isinstance(sentence, Turn) and now.heading is not Heading.NORTH
         return _MIRRORED[sentence] if confusing and chance.random() < traits.mirror else sentence
+
+    def _misread(self, sentence: ProceedTo | TakeDoor) -> ProceedTo | TakeDoor:
+        """Another sentence of the same kind."""
+        if self._chance.random() < 0.5:
+            return replace(sentence, side="right" if sentence.side == "left" else "left")
+        return replace(sentence, number=max(1, sentence.number + self._chance.choice((-1, 1))))
 
     def _counted(self, number: int) -> int:
         """The door or opening that is taken for the `number`th: each may be miscounted."""
