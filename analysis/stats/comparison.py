@@ -125,7 +125,7 @@ def _means(rows: pd.DataFrame, column: str, unit: str) -> pd.DataFrame:
 
 def _best_static(means: pd.DataFrame, coaches: Sequence[str]) -> str | None:
     static = [coach for coach in coaches if coach.startswith(STATIC)]
-    return max(static, key=lambda coach: float(means[coach].mean()), default=None)
+    return max(static, key=lambda coach: float(means[coach].to_numpy().mean()), default=None)
 
 
 def _cell(rows: pd.DataFrame, means: pd.DataFrame, unit: str, coach: str, best: str | None) -> Cell:
