@@ -36,6 +36,9 @@ def comparison_text(comparison: Comparison, people: str) -> str:
             lines += [_line(cell, cell.coach == best) for cell in cells]
     for calibration in comparison.calibrations:
         lines += ["", *_calibration_lines(calibration)]
+    if comparison.path_aucs:
+        lines += ["", "mean P(g*|path): how often that of a HIGH person is above a LOW one's"]
+        lines += [f"  {one.world}, {one.coach}: {one.auc}" for one in comparison.path_aucs]
     if comparison.best_static:
         lines += ["", "*: the static level with the most rescues in the group, chosen on these"]
         lines += ["   very people, which flatters it a little."]
@@ -88,12 +91,20 @@ def _calibration_lines(calibration: Calibration) -> list[str]:
 
 
 def comparison_rows(comparison: Comparison) -> dict[str, list[Row]]:
-    """What is written to JSON: `cells`, `best_static` and `calibration`."""
+    """What is written to JSON: `cells`, `best_static`, `path_auc` and `calibration`."""
     return {
         "cells": [cell_row(cell) for cell in comparison.cells],
         "best_static": [
             {"world": world, "group": group, "coach": coach}
             for (world, group), coach in comparison.best_static.items()
+        ],
+        "path_auc": [
+            {
+                "world": one.world,
+                "coach": one.coach,
+                "auc": [one.auc.estimate, one.auc.lower, one.auc.upper],
+            }
+            for one in comparison.path_aucs
         ],
         "calibration": [
             {

@@ -15,7 +15,7 @@ from scipy import stats
 from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import KNOWLEDGE
 from analysis.sources.frames import Floats
-from analysis.stats.intervals import Interval, auc
+from analysis.stats.intervals import Interval, auc, auc_interval
 
 LOW_UP_TO, MED_UP_TO = 0.40, 0.65
 """The groups: LOW knows up to .40 of the rooms, MED up to .65, HIGH more."""
@@ -73,10 +73,20 @@ class Calibration:
 
 
 @dataclass(frozen=True)
+class PathAuc:
+    """How often the mean P(g* | path) of a HIGH person's mission is above that of a LOW one's."""
+
+    world: str
+    coach: str
+    auc: Interval
+
+
+@dataclass(frozen=True)
 class Comparison:
     """`best_static` is the static coach with the most rescues, by world and group."""
 
     cells: tuple[Cell, ...]
+    path_aucs: tuple[PathAuc, ...]
     best_static: dict[tuple[str, str], str]
     calibrations: tuple[Calibration, ...]
 
@@ -106,7 +116,8 @@ def compared(trials: pd.DataFrame, unit: str = "person") -> Comparison:
             if best is not None:
                 best_static[world, group] = best
             cells += [_cell(rows, means, unit, coach, best) for coach in coaches]
-    return Comparison(tuple(cells), best_static, _calibrations(trials, coaches))
+    paths = _path_aucs(trials, coaches)
+    return Comparison(tuple(cells), paths, best_static, _calibrations(trials, coaches))
 
 
 def t_interval(values: Floats) -> Interval | None:
@@ -158,6 +169,21 @@ def _cell(rows: pd.DataFrame, means: pd.DataFrame, unit: str, coach: str, best: 
         lost=mean("lost"),
         alignment=mean("alignment"),
     )
+
+
+def _path_aucs(trials: pd.DataFrame, coaches: Sequence[str]) -> tuple[PathAuc, ...]:
+    found = []
+    for world in dict.fromkeys(trials["world"]):
+        for coach in coaches:
+            own = trials[(trials["world"] == world) & (trials["coach"] == coach)]
+            own = own.dropna(subset=["comprehension"])
+            high, low = (
+                own[own["group"] == group]["comprehension"].to_numpy(dtype=float)
+                for group in ("HIGH", "LOW")
+            )
+            if len(high) > 1 and len(low) > 1:
+                found.append(PathAuc(str(world), coach, auc_interval(high, low)))
+    return tuple(found)
 
 
 def _calibrations(trials: pd.DataFrame, coaches: Sequence[str]) -> tuple[Calibration, ...]:

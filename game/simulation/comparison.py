@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple
 
 import msgspec
 
-from game.coach.acts import KnowledgeJudged
+from game.coach.acts import KnowledgeJudged, PosteriorEvaluated
 from game.coach.spec import CoachSpec
 from game.journal.history import MissionHistory, Step
 from game.journal.records import RunRecord
@@ -52,11 +52,12 @@ class Matter(NamedTuple):
 
 class Trial(msgspec.Struct, frozen=True):
     """How one mission went. `known` is the share of rooms whose place the person knew before it;
-    `c1` to `c3` are shares of the mission at each level, `lost` the share spent searching and
-    puzzling, `alignment` is 1 minus the time-weighted distance between the knowledge that the words
-    asked for and the person's. `goals` and `rooms` hold pairs (P known, whether it was known): of
-    each goal's room when its level was chosen, and of every room at the last choice; `share` is the
-    share of rooms that the coach then held to have been known.
+    `c1` to `c3` are shares of the mission at each level, `lost` is the share spent searching and
+    puzzling; `alignment` is 1 minus the time-weighted distance between the knowledge that the words
+    asked for and the person's; `comprehension` is the mean of P(g* | path). `goals` and `rooms` hold
+    pairs (P known, whether it was known): of each goal's room when its level was chosen, and of
+    every room at the last choice; `share` is the share of rooms that the coach then held to have
+    been known.
     """
 
     world: str
@@ -72,6 +73,7 @@ class Trial(msgspec.Struct, frozen=True):
     lost: float
     alignment: float
     missteps: int
+    comprehension: float | None = None
     share: float | None = None
     goals: tuple[tuple[float, bool], ...] = ()
     rooms: tuple[tuple[float, bool], ...] = ()
@@ -138,10 +140,13 @@ def _played(
     history = MissionHistory(0, Step("mission"), started)
     goals: list[tuple[float, bool]] = []
     last: list[KnowledgeJudged] = []
+    heard: list[float] = []
 
     def note(records: Sequence[RunRecord]) -> None:
         for record in records:
             history.note(0, record)
+            if isinstance(record, PosteriorEvaluated) and record.verdict != "none":
+                heard.append(record.comprehension)
             if isinstance(record, KnowledgeJudged):
                 last[:] = [record]
                 if record.room is not None:
@@ -179,6 +184,7 @@ def _played(
         lost=(lived.searching_ms + lived.puzzled_ms) / whole_ms,
         alignment=1 - sum(shares[level] * abs(need - share) for level, need in DEMAND.items()),
         missteps=history.missteps,
+        comprehension=sum(heard) / len(heard) if heard else None,
         share=last[0].share if last else None,
         goals=tuple(goals),
         rooms=tuple((chance, known[room]) for room, chance in last[0].known.items())

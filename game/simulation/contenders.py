@@ -7,10 +7,13 @@ from dataclasses import dataclass
 
 import msgspec
 
+from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
+from game.coach.kinds.ana import Ana
 from game.coach.kinds.knowledge import KnowledgeCoach
 from game.coach.knowledge.assumed import ASSUMED, QuizMark
 from game.coach.own import SEPARATOR
+from game.coach.presets import FLOODFILL
 from game.coach.registry import KINDS
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.errors import AnaError, choose_from
@@ -23,13 +26,17 @@ TRUTH = "truth"
 TOLD = msgspec.structs.replace(
     ASSUMED, quiz_right=(0.999, 0.001), quiz_wrong=(0.001, 0.999), quiz_blank=(0.001, 0.999)
 )
+LISTENING = "listening"
+"""A coach who keeps one level and evaluates the walk all the same, as `ana` does: what P(g* | path)
+can tell at that level."""
+UNMOVED = msgspec.structs.replace(FLOODFILL, agreement=1_000_000, lowers_when_lost=False)
 NAMED = ("ana:PRESET", "static:LEVEL", "FILE.py:CLASS")
 
 
 @dataclass(frozen=True)
 class Contender:
     """A coach as it is named on the command line. `spec` is None for those that are told something
-    about the person: `knowledge+quiz`, and `truth`."""
+    about the person (`knowledge+quiz` and `truth`), and for `listening:LEVEL`."""
 
     name: str
     spec: CoachSpec | None
@@ -38,6 +45,9 @@ class Contender:
         """A new coach for a mission of somebody who knows these rooms and labelled them so."""
         if self.spec is not None:
             return build_coach(self.spec, briefing)
+        kind, _, level = self.name.partition(SEPARATOR)
+        if kind == LISTENING:
+            return Ana(briefing, msgspec.structs.replace(UNMOVED, first_level=Level(int(level))))
         if self.name == TRUTH:
             truth: Quiz = {name: "right" if knows else "blank" for name, knows in known.items()}
             return KnowledgeCoach(briefing, truth, TOLD)
@@ -51,6 +61,8 @@ def contender(name: str) -> Contender:
     kind, colon, choice = name.partition(SEPARATOR)
     if colon and kind == "static" and choice.isdigit():
         return Contender(name, parse_coach(kind, int(choice)))
+    if colon and kind == LISTENING and choice in ("1", "2", "3"):
+        return Contender(name, None)
     if colon and kind == "ana":
         return Contender(name, parse_coach(kind, preset=choice))
     known = [it for it in KINDS if "yoke" not in KINDS[it].choices]

@@ -30,6 +30,7 @@ def trial(coach: str, person: int, known: float, rescues: int, **more: object) -
         "rescues": rescues,
         "switches": 0,
         **dict.fromkeys(("c1", "c2", "c3", "lost", "alignment"), 0.5),
+        "comprehension": None,
         "share": None,
         "goals": (),
         "rooms": (),
