@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PROJECT := pyproject.toml game/__init__.py
 
 .DEFAULT_GOAL := help
-.PHONY: help play test slow lab reproduce reference bench lint types contract pins schema
+.PHONY: help play test slow lab reproduce coaches reference bench lint types contract pins schema
 
 help:  ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -26,6 +26,12 @@ lab: $(VENV)/all.stamp  ## open the notebooks on the shipped simulated study
 
 reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure and page from it
 	@$(BIN)/python -m analysis.reproduce out
+
+COMPARED := static:1,static:2,static:3,ana,ana:calibrated,ana:belief,knowledge,knowledge+quiz,truth,listening:1,listening:2,listening:3
+
+coaches: $(VENV)/all.stamp  ## compare the coaches on simulated people (half an hour on two cores)
+	@mkdir -p out
+	@$(BIN)/ana compare --coaches "$(COMPARED)" --people 100 --json out/coaches.json --figures out/coaches
 
 bench: $(VENV)/all.stamp  ## measure speed beside the floors, in one run
 	@$(BIN)/python -m tests.bench

@@ -63,7 +63,10 @@ def test_a_coach_of_ones_own_takes_part(tmp_path: Path) -> None:
     assert (own.rescues, own.c1, own.coach) == (one.rescues, one.c1, f"{file}:Patient")
 
 
-@pytest.mark.parametrize("name", ["anna", "yoked", "ana:calibratd", "static:4"])
+@pytest.mark.parametrize(
+    "name",
+    ["anna", "yoked", "ana:calibratd", "static:4", "knowledge:serch_ms=1", "ana:floodfill;bta=1"],
+)
 def test_a_coach_that_there_is_not_is_named(name: str) -> None:
     with pytest.raises(AnaError, match="there is no"):
         contender(name)

@@ -1,6 +1,9 @@
 """The comparison of coaches as a table in text, as JSON, and as a figure."""
 
+import json
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,15 +13,25 @@ from analysis.pages.style import (
     BLUE,
     GREEN,
     INK,
+    LEVEL_COLOURS,
     ORANGE,
     VERMILION,
     Captioned,
     captioned,
     quiet_style,
 )
-from analysis.sources.absent import Absent, Row
-from analysis.sources.factors import KNOWLEDGE
-from analysis.stats.comparison import STATIC, TRUTH, Calibration, Cell, Comparison, cell_row
+from analysis.sources.absent import Absent, Row, SourceError
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
+from analysis.stats.comparison import (
+    STATIC,
+    TRUTH,
+    Calibration,
+    Cell,
+    Comparison,
+    PathAuc,
+    Tenth,
+    cell_row,
+)
 from analysis.stats.intervals import Interval
 
 _COLOURS = (BLUE, ORANGE, GREEN, VERMILION, INK)
@@ -175,3 +188,192 @@ def _points(
         linewidth=1,
         label=coach,
     )
+
+
+def read_comparison(path: Path) -> Comparison:
+    """The comparison that `ana compare --json` wrote. Raises SourceError, naming the file."""
+    try:
+        tree = json.loads(path.read_text(encoding="utf-8"))
+        return Comparison(
+            tuple(_cell_of(row) for row in tree["cells"]),
+            tuple(
+                PathAuc(row["world"], row["coach"], Interval(*row["auc"]))
+                for row in tree["path_auc"]
+            ),
+            {(row["world"], row["group"]): row["coach"] for row in tree["best_static"]},
+            tuple(_calibration_of(row) for row in tree["calibration"]),
+        )
+    except OSError as error:
+        raise SourceError(
+            f"the comparison cannot be read ({error.strerror})",
+            place=str(path),
+            hint="`make coaches` makes it.",
+        ) from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise SourceError(
+            f"this is not a comparison of coaches ({error!r})",
+            place=str(path),
+            hint="Give a file that `ana compare --json` wrote.",
+        ) from error
+
+
+def _cell_of(row: dict[str, Any]) -> Cell:
+    def interval(name: str) -> Interval | None:
+        return None if row[name] is None else Interval(*row[name])
+
+    return Cell(
+        world=row["world"],
+        group=row["group"],
+        coach=row["coach"],
+        n=row["n"],
+        people=row["people"],
+        rescues=row["rescues"],
+        rescues_interval=interval("rescues_interval"),
+        minus_best_static=interval("minus_best_static"),
+        minus_ana=interval("minus_ana"),
+        minus_calibrated=interval("minus_calibrated"),
+        minus_truth=interval("minus_truth"),
+        switches=row["switches"],
+        c1=row["share_c1"],
+        c2=row["share_c2"],
+        c3=row["share_c3"],
+        lost=row["lost"],
+        alignment=row["alignment"],
+    )
+
+
+def _calibration_of(row: dict[str, Any]) -> Calibration:
+    room, person = (
+        Absent("one of the two kinds did not occur") if row[name] is None else row[name]
+        for name in ("room_auc", "person_auc")
+    )
+    tenths = tuple(Tenth(it["p"], it["known"], it["n"]) for it in row["reliability"])
+    return Calibration(row["coach"], tenths, room, person)
+
+
+def difference_rows(comparison: Comparison, of: Sequence[str]) -> list[Row]:
+    """For each world and group, the coaches `of`: rescues, differences and switches, in words."""
+    return [
+        {
+            "world": cell.world,
+            "group": cell.group,
+            "coach": cell.coach,
+            "n": cell.n,
+            "rescues": cell.rescues,
+            "minus best static": _difference(cell.minus_best_static),
+            "minus ana": _difference(cell.minus_ana),
+            "minus calibrated": _difference(cell.minus_calibrated),
+            "minus truth": _difference(cell.minus_truth),
+            "switches": cell.switches,
+        }
+        for cell in comparison.cells
+        if cell.coach in of
+    ]
+
+
+def level_shares_figure(comparison: Comparison, world: str, of: Sequence[str]) -> Captioned:
+    """Shares of the mission at each level by group, one panel a coach (as in Fig. 10)."""
+    with quiet_style():
+        figure = Figure(figsize=(7.2, 3.0))
+        panels = np.ravel(figure.subplots(1, len(of), sharey=True, squeeze=False))
+        for axes, coach in zip(panels, of, strict=True):
+            axes.set_title(coach)
+            axes.set_ylim(0, 1)
+            bottom = np.zeros(len(KNOWLEDGE))
+            for level in COMPLEXITY:
+                heights = np.array(
+                    [_level_share(comparison, world, g, coach, level) for g in KNOWLEDGE]
+                )
+                axes.bar(KNOWLEDGE, heights, 0.7, bottom, color=LEVEL_COLOURS[level], label=level)
+                bottom = bottom + heights
+        panels[0].set_ylabel("share of the mission")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="upper right", ncols=3)
+        return captioned(
+            "coaches-levels",
+            figure,
+            f"Share of the missions at C1, C2 and C3 by group, world {world}: what Fig. 10 "
+            "shows for one person of each group. Look whether C3 grows and C1 shrinks from LOW to "
+            "HIGH.",
+            simulated=True,
+        )
+
+
+def _level_share(comparison: Comparison, world: str, group: str, coach: str, level: str) -> float:
+    for cell in comparison.cells:
+        if (cell.world, cell.group, cell.coach) == (world, group, coach):
+            return {"C1": cell.c1, "C2": cell.c2, "C3": cell.c3}[level]
+    return 0.0
+
+
+def reliability_figure(comparison: Comparison) -> Captioned:
+    """P(known) as the coaches held it, against the share of rooms truly known."""
+    with quiet_style():
+        figure = Figure(figsize=(4.6, 4.4))
+        axes = figure.subplots()
+        axes.plot([0, 1], [0, 1], color=INK, linewidth=0.8, linestyle=":")
+        for number, one in enumerate(comparison.calibrations):
+            axes.plot(
+                [tenth.p for tenth in one.reliability],
+                [tenth.known for tenth in one.reliability],
+                color=_COLOURS[number % len(_COLOURS)],
+                marker=_MARKERS[number % len(_MARKERS)],
+                label=one.coach,
+            )
+        axes.set_xlim(0, 1)
+        axes.set_ylim(0, 1)
+        axes.set_xlabel("P known, when a goal's level was chosen")
+        axes.set_ylabel("share truly known")
+        axes.legend(loc="upper left")
+        return captioned(
+            "coaches-reliability",
+            figure,
+            "On the dotted line a coach would be right about what people know: above it, people "
+            "know more than it thinks.",
+            simulated=True,
+        )
+
+
+def switches_figure(comparison: Comparison, world: str) -> Captioned:
+    """Rescues against switches of every adaptive coach, by group."""
+    with quiet_style():
+        figure = Figure(figsize=(7.2, 3.2))
+        panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
+        for axes, group in zip(panels, KNOWLEDGE, strict=True):
+            axes.set_title(group)
+            cells = [c for c in comparison.cells if (c.world, c.group) == (world, group)]
+            for number, cell in enumerate(cells):
+                axes.plot(
+                    cell.switches,
+                    cell.rescues,
+                    _MARKERS[number % len(_MARKERS)],
+                    color=_COLOURS[number % len(_COLOURS)],
+                    label=cell.coach,
+                )
+            axes.set_xlabel("switches a mission")
+        panels[0].set_ylabel("rescued victims")
+        handles, names = panels[0].get_legend_handles_labels()
+        figure.legend(handles, names, loc="upper right", ncols=4, fontsize=7)
+        return captioned(
+            "coaches-switches",
+            figure,
+            f"Rescued victims against switches of level, world {world}: switching is worth "
+            "something only where it saves somebody.",
+            simulated=True,
+        )
+
+
+def path_rows(comparison: Comparison, kind: str) -> list[Row]:
+    """How well the mean P(g* | path) tells HIGH from LOW with the coaches of a kind."""
+    return [
+        {"world": one.world, "coach": one.coach, "HIGH over LOW": str(one.auc)}
+        for one in comparison.path_aucs
+        if one.coach.startswith(kind)
+    ]
+
+
+def calibration_rows(comparison: Comparison) -> list[Row]:
+    """The areas under the ROC curve of P known."""
+    return [
+        {"coach": one.coach, "rooms": one.room_auc, "people, HIGH over LOW": one.person_auc}
+        for one in comparison.calibrations
+    ]

@@ -54,9 +54,9 @@ class Trial(msgspec.Struct, frozen=True):
     """How one mission went. `known` is the share of rooms whose place the person knew before it;
     `c1` to `c3` are shares of the mission at each level, `lost` is the share spent searching and
     puzzling; `alignment` is 1 minus the time-weighted distance between the knowledge that the words
-    asked for and the person's; `comprehension` is the mean of P(g* | path). `goals` and `rooms` hold
-    pairs (P known, whether it was known): of each goal's room when its level was chosen, and of
-    every room at the last choice; `share` is the share of rooms that the coach then held to have
+    asked for and the person's; `comprehension` is the mean of P(g* | path). `goals` and `rooms`
+    hold pairs (P known, whether it was known): of each goal's room when its level was chosen, and
+    of every room at the last choice; `share` is the share of rooms that the coach then held to have
     been known.
     """
 

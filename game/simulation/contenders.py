@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import msgspec
 
@@ -11,12 +12,12 @@ from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
 from game.coach.kinds.ana import Ana
 from game.coach.kinds.knowledge import KnowledgeCoach
-from game.coach.knowledge.assumed import ASSUMED, QuizMark
+from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizMark
 from game.coach.own import SEPARATOR
-from game.coach.presets import FLOODFILL
+from game.coach.presets import FLOODFILL, PRESETS, Preset
 from game.coach.registry import KINDS
 from game.coach.spec import CoachSpec, build_coach, parse_coach
-from game.errors import AnaError, choose_from
+from game.errors import AnaError, choose_from, did_you_mean
 
 Quiz = dict[str, QuizMark]
 """How a person labelled the rooms, by their true names."""
@@ -30,28 +31,31 @@ LISTENING = "listening"
 """A coach who keeps one level and evaluates the walk all the same, as `ana` does: what P(g* | path)
 can tell at that level."""
 UNMOVED = msgspec.structs.replace(FLOODFILL, agreement=1_000_000, lowers_when_lost=False)
-NAMED = ("ana:PRESET", "static:LEVEL", "FILE.py:CLASS")
+NAMED = ("ana:PRESET", "static:LEVEL", "knowledge:NUMBER=VALUE", "FILE.py:CLASS")
 
 
 @dataclass(frozen=True)
 class Contender:
-    """A coach as it is named on the command line. `spec` is None for those that are told something
-    about the person (`knowledge+quiz` and `truth`), and for `listening:LEVEL`."""
+    """A coach as it is named on the command line. `spec` is None for those that no journal could
+    describe: they are told something about the person (`knowledge+quiz` and `truth`), or are made
+    with other numbers (`knowledge` by `assumed`, `ana` by `rule`)."""
 
     name: str
     spec: CoachSpec | None
+    assumed: Assumed = ASSUMED
+    rule: Preset | None = None
 
     def build(self, briefing: Briefing, known: Mapping[str, bool], quiz: Quiz) -> Coach:
         """A new coach for a mission of somebody who knows these rooms and labelled them so."""
         if self.spec is not None:
             return build_coach(self.spec, briefing)
-        kind, _, level = self.name.partition(SEPARATOR)
-        if kind == LISTENING:
-            return Ana(briefing, msgspec.structs.replace(UNMOVED, first_level=Level(int(level))))
+        if self.rule is not None:
+            return Ana(briefing, self.rule)
         if self.name == TRUTH:
             truth: Quiz = {name: "right" if knows else "blank" for name, knows in known.items()}
             return KnowledgeCoach(briefing, truth, TOLD)
-        return KnowledgeCoach(briefing, quiz)
+        told = quiz if self.name == "knowledge+quiz" else None
+        return KnowledgeCoach(briefing, told, self.assumed)
 
 
 def contender(name: str) -> Contender:
@@ -62,11 +66,39 @@ def contender(name: str) -> Contender:
     if colon and kind == "static" and choice.isdigit():
         return Contender(name, parse_coach(kind, int(choice)))
     if colon and kind == LISTENING and choice in ("1", "2", "3"):
-        return Contender(name, None)
+        first_level = Level(int(choice))
+        return Contender(name, None, rule=msgspec.structs.replace(UNMOVED, first_level=first_level))
+    if colon and kind == "knowledge":
+        return Contender(name, None, _changed(name, ASSUMED, choice))
     if colon and kind == "ana":
+        preset, changes, numbers = choice.partition(";")
+        if changes:
+            spec = parse_coach(kind, preset=preset)
+            return Contender(name, None, rule=_changed(name, PRESETS[spec.preset or ""], numbers))
         return Contender(name, parse_coach(kind, preset=choice))
     known = [it for it in KINDS if "yoke" not in KINDS[it].choices]
     if not colon and name not in known:
         hint = choose_from(name, (*known, TRUTH, *NAMED))
         raise AnaError(f"there is no coach '{name}' to compare", place="--coaches", hint=hint)
     return Contender(name, parse_coach(name))
+
+
+_Numbers = TypeVar("_Numbers", Assumed, Preset)
+
+
+def _changed(name: str, before: _Numbers, changes: str) -> _Numbers:
+    """`before` with each NUMBER=VALUE of `changes`, parted by semicolons."""
+    numbers = msgspec.structs.asdict(before)
+    for change in changes.split(";"):
+        number, _, value = change.partition("=")
+        if not isinstance(numbers.get(number), float):
+            hint = did_you_mean(number, numbers)
+            raise AnaError(f"there is no number '{number}' to change", place=name, hint=hint)
+        try:
+            numbers[number] = float(value)
+        except ValueError as error:
+            raise AnaError(f"{number} must be a number, not '{value}'", place=name) from error
+    try:
+        return type(before)(**numbers)
+    except ValueError as error:
+        raise AnaError(str(error), place=name) from error

@@ -12,7 +12,7 @@ PARAMETER = 'SOURCE = "../data/simulated"'
 
 
 def test_all_questions_are_there_in_order() -> None:
-    assert [path.name[:2] for path in notebooks()] == [f"{number:02}" for number in range(1, 12)]
+    assert [path.name[:2] for path in notebooks()] == [f"{number:02}" for number in range(1, 13)]
 
 
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: path.stem)
