@@ -177,7 +177,19 @@ class HumanModel:
         return belief.correct(self.observations.taken_in(observation))
 
     def _believing(self, state: Belief) -> HumanModel:
-        return replace(self, belief=replace(self.belief, state=state))
+        before = self.belief
+        if state == before.state:
+            return self
+        return HumanModel(
+            self.states,
+            self.actions,
+            self.transition,
+            self.reward,
+            self.observations,
+            self.observation_function,
+            BeliefEstimate(state, before.comprehension, before.known),
+            self.floodfills,
+        )
 
 
 _ACTIONS = {

@@ -83,8 +83,8 @@ def ways_to_nearest(
             return [_traced(came_from, cell) for cell in found]
         reached = []
         for cell in frontier:
-            for heading in Heading:
-                near = heading.from_cell(cell)
+            x, y = cell
+            for near in ((x, y - 1), (x + 1, y), (x, y + 1), (x - 1, y)):
                 if near not in came_from and (passable(near) or wanted(near)):
                     came_from[near] = cell
                     reached.append(near)
