@@ -102,7 +102,7 @@ class Lead:
             return False
         moves = max(0, self.to_go(position, victim) - 1)
         done_ms = at_ms + moves * settings.pace_ms + settings.treatment_ms(site.severity)
-        return done_ms > settings.red_expiry_ms
+        return done_ms > settings.reds_expire_ms
 
     def _best(self, at_ms: int, position: Cell, ms_per_move: int) -> Sequence[str]:
         """The best route; where it is empty, the nearest victim that is not hopeless."""

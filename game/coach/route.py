@@ -123,7 +123,7 @@ class RoutePlanner:
     def _due_ms(self, site: VictimSite, spare_ms: int) -> int:
         settings = self._settings
         if site.severity is Severity.RED:
-            return min(settings.red_expiry_ms - spare_ms, settings.duration_ms)
+            return min(settings.reds_expire_ms - spare_ms, settings.duration_ms)
         return settings.duration_ms
 
     def _stand(self, name: str) -> int:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_type_hints
 
 import click
 import msgspec
@@ -119,7 +119,7 @@ def options_of(
 
 def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:
     """The settings with each KEY=VALUE set. Raises AnaError, naming the wrong assignment."""
-    kinds = {field.name: type(getattr(settings, field.name)) for field in fields(settings)}
+    kinds = get_type_hints(MissionSettings)
     for assignment in assignments:
         name, equals, value = assignment.partition("=")
         place = f"--set {assignment}"

@@ -76,7 +76,7 @@ class Mission:
         self.ended = False
         self.rescued = 0
         self._last_due = Due(settings.duration_ms, Order.MISSION_END)
-        self._expiry_due = Due(settings.red_expiry_ms, Order.EXPIRY)
+        self._expiry_due = Due(settings.reds_expire_ms, Order.EXPIRY)
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
         self._site_at = {site.cell: site for site in building.victims}
         self._sight = building.terrain.sight(settings.sight_radius)
@@ -222,7 +222,7 @@ class Mission:
         return Outcome.TREATING, [TreatmentStarted(now_ms, site.id, self._treatment_end_ms())]
 
     def _expires_before(self, site: VictimSite, at_ms: int) -> bool:
-        return site.severity is Severity.RED and self.settings.red_expiry_ms < at_ms
+        return site.severity is Severity.RED and self.settings.reds_expire_ms < at_ms
 
     def _treatment_end_ms(self) -> int:
         assert self._treated is not None

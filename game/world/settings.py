@@ -18,8 +18,8 @@ class MissionSettings:
     """
 
     duration_ms: int = 240_000
-    red_expiry_ms: int = 120_000
-    """When red victims expire, counted from the start."""
+    red_expiry_ms: int | None = None
+    """When red victims expire, counted from the start; None: at half time (`reds_expire_ms`)."""
     treat_red_ms: int = 6_000
     treat_blue_ms: int = 3_000
     sight_radius: int = 5
@@ -37,10 +37,15 @@ class MissionSettings:
     def __post_init__(self) -> None:
         for name, low, high in _RANGES:
             value = getattr(self, name)
-            if not low <= value <= high:
+            if value is not None and not low <= value <= high:
                 raise ValueError(f"{name} must be between {low} and {high}, not {value}")
         if self.controls not in ("compass", "turn"):
             raise ValueError(f"controls must be compass or turn, not {self.controls}")
+
+    @property
+    def reds_expire_ms(self) -> int:
+        """When red victims expire, counted from the start."""
+        return self.duration_ms // 2 if self.red_expiry_ms is None else self.red_expiry_ms
 
     @property
     def pace_ms(self) -> int:

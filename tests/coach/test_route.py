@@ -47,7 +47,7 @@ def moves_to(name: str, position: Cell, victim: str) -> int:
 
 def due_ms(site: VictimSite) -> int:
     red = site.severity is Severity.RED
-    return SETTINGS.red_expiry_ms if red else SETTINGS.duration_ms
+    return SETTINGS.reds_expire_ms if red else SETTINGS.duration_ms
 
 
 def follow(name: str, choose: str) -> list[VictimSite]:
@@ -72,7 +72,7 @@ def follow(name: str, choose: str) -> list[VictimSite]:
         if done_ms <= due_ms(site):
             at_ms = done_ms
             saved.append(site)
-        if at_ms >= SETTINGS.red_expiry_ms:
+        if at_ms >= SETTINGS.reds_expire_ms:
             waiting = {v: s for v, s in waiting.items() if s.severity is Severity.BLUE}
     return saved
 

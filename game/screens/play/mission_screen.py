@@ -214,12 +214,7 @@ class LiveScreen(Screen[None]):
         self.app.push_screen(self._help())
 
     def _help(self) -> Help:
-        settings = self.live.settings
-        return Help(
-            turning=settings.controls == "turn",
-            pausing=settings.allow_pause,
-            asking=settings.level_key,
-        )
+        return Help(self.live.settings)
 
     def action_leave(self) -> None:
         self.app.push_screen(leave_question(), self._left)

@@ -20,6 +20,7 @@ from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Playing
 from game.study.texts import LevelKeyWords, Page
 from game.world.events import LevelWish
+from game.world.settings import MissionSettings
 
 
 class StudyMission(LiveMission):
@@ -46,16 +47,16 @@ class Reminder(ModalScreen[None]):
         Binding("ctrl+q,ctrl+c", "close", id="reminder.close.ctrl"),
     ]
 
-    def __init__(self, frame: Frame, page: Page, *, turning: bool) -> None:
+    def __init__(self, frame: Frame, page: Page, rules: MissionSettings) -> None:
         super().__init__()
-        self._frame, self._page, self._turning = frame, page, turning
+        self._frame, self._page, self._rules = frame, page, rules
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog wide"):
             with VerticalScroll():
                 yield heading(self._page)
                 yield body(self._page)
-                yield Signs(turning=self._turning)
+                yield Signs(self._rules)
             yield KeyLine(("Enter", self._frame.words.go_on))
 
     def action_close(self) -> None:
@@ -105,8 +106,7 @@ class StudyMissionScreen(MissionScreen):
         return self.level_key.of(want)
 
     def action_help(self) -> None:
-        turning = self.live.settings.controls == "turn"
-        self.app.push_screen(Reminder(self.frame, self.reminder, turning=turning))
+        self.app.push_screen(Reminder(self.frame, self.reminder, self.live.settings))
 
     def action_leave(self) -> None:
         self.app.push_screen(self.frame.stop_question(), self._left)

@@ -13,6 +13,7 @@ from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES
 from game.screens.widgets.howto import sign_rows, walking_rows
 from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
+from game.world.settings import MissionSettings
 
 
 class PageScreen(StudyScreen[bool]):
@@ -38,10 +39,11 @@ class Signs(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "key"}
 
-    def __init__(self, *, turning: bool) -> None:
+    def __init__(self, rules: MissionSettings) -> None:
         super().__init__(classes="signs")
-        self._turning = turning
+        self._rules = rules
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw([*walking_rows(turning=self._turning), BLANK, *sign_rows(glyphs)])
+        turning = self._rules.controls == "turn"
+        self.draw([*walking_rows(turning=turning), BLANK, *sign_rows(glyphs, self._rules)])

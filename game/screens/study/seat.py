@@ -59,8 +59,7 @@ class ScreenParticipant:
 
     async def read(self, page: Page) -> None:
         if page is self._texts.lessons.walking:
-            turning = self._rules.controls == "turn"
-            await self._show(PageScreen(self._frame, page, Signs(turning=turning)))
+            await self._show(PageScreen(self._frame, page, Signs(self._rules)))
         else:
             await self._show(PageScreen(self._frame, page))
 

@@ -14,6 +14,7 @@ from textual.widgets import Static
 
 from game.screens.widgets.howto import HowTo
 from game.screens.widgets.keyline import KeyLine
+from game.world.settings import MissionSettings
 
 LEAST_SIZE = (80, 24)
 """Columns and rows below which nothing useful can be shown."""
@@ -112,14 +113,14 @@ class Help(ModalScreen[None]):
         Binding("ctrl+q,ctrl+c", "close", id="help.close.ctrl"),
     ]
 
-    def __init__(self, *, turning: bool, pausing: bool, asking: bool) -> None:
+    def __init__(self, rules: MissionSettings) -> None:
         super().__init__()
-        self._turning, self._pausing, self._asking = turning, pausing, asking
+        self._rules = rules
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog wide"):
             with VerticalScroll():
-                yield HowTo(turning=self._turning, pausing=self._pausing, asking=self._asking)
+                yield HowTo(self._rules)
             yield KeyLine(("Enter", "Back to the mission"))
 
     def action_close(self) -> None:

@@ -13,12 +13,14 @@ from textual.screen import Screen
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.statuspanel import clock_text
 from game.world.geometry import Heading
+from game.world.settings import FREE_PLAY, MissionSettings
 
 _MARGIN = "  "
 _LEGEND = (
     (player_kind(Heading.NORTH), "you: an arrowhead pointing the way you face"),
-    (Kind.RED, "red victim: dies unless treated by half time"),
+    (Kind.RED, "red victim: dies unless treated {in_time}"),
     (Kind.BLUE, "blue victim: hurt, can wait until the end"),
     (Kind.TREATED_RED, "being treated: stay until it is finished"),
     (Kind.RESCUED, "rescued"),
@@ -49,16 +51,17 @@ _BESIDE = 52
 """from this column on."""
 
 
-def howto_rows(glyphs: GlyphSet, *, turning: bool, pausing: bool, asking: bool) -> list[Row]:
+def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
-    long = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
+    in_time = red_time(rules)
+    long = [_sign(glyphs, *sign, in_time) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
     short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
-    others = [("+ -", "simpler or shorter words")] if asking else []
-    others += [("P", "pause")] if pausing else []
+    others = [("+ -", "simpler or shorter words")] if rules.level_key else []
+    others += [("P", "pause")] if rules.allow_pause else []
     others += [("?", "help"), ("Q", "leave")]
     return [
         _heading("Rescue as many victims as you can. The yellow bar guides you."),
-        *walking_rows(turning=turning),
+        *walking_rows(turning=rules.controls == "turn"),
         tuple(run for key, does in others for run in _key(f" {key} ", does)),
         BLANK,
         _heading("What you see"),
@@ -76,13 +79,22 @@ def walking_rows(*, turning: bool) -> list[Row]:
     return _keys(_TURN_KEYS if turning else _COMPASS_KEYS)
 
 
-def sign_rows(glyphs: GlyphSet) -> list[Row]:
+def sign_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     """What each sign of the office means."""
-    return [_sign(glyphs, kind, meaning) for kind, meaning in _LEGEND]
+    return [_sign(glyphs, kind, meaning, red_time(rules)) for kind, meaning in _LEGEND]
 
 
-def _sign(glyphs: GlyphSet, kind: Kind, meaning: str) -> Row:
-    return ((_MARGIN, ""), glyphs[kind], (f"  {meaning}", ""))
+def red_time(rules: MissionSettings) -> str:
+    """By when a red victim must be treated."""
+    if 2 * rules.reds_expire_ms == rules.duration_ms:
+        return "by half time"
+    if rules.reds_expire_ms >= rules.duration_ms:
+        return "before the end"
+    return f"in the first {clock_text(rules.reds_expire_ms)}"
+
+
+def _sign(glyphs: GlyphSet, kind: Kind, meaning: str, in_time: str = "") -> Row:
+    return ((_MARGIN, ""), glyphs[kind], (f"  {meaning.format(in_time=in_time)}", ""))
 
 
 def _keys(keys: Iterable[tuple[str, str]]) -> list[Row]:
@@ -114,15 +126,13 @@ class HowTo(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "title", "key", "quiet", "example"}
 
-    def __init__(self, *, turning: bool = False, pausing: bool = True, asking: bool = True) -> None:
+    def __init__(self, rules: MissionSettings = FREE_PLAY) -> None:
         super().__init__()
-        self._turning, self._pausing, self._asking = turning, pausing, asking
+        self._rules = rules
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw(
-            howto_rows(glyphs, turning=self._turning, pausing=self._pausing, asking=self._asking)
-        )
+        self.draw(howto_rows(glyphs, self._rules))
 
 
 class HowToScreen(Screen[None]):

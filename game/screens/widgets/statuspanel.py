@@ -48,7 +48,7 @@ def _clock(observation: Observation, columns: int) -> Row:
 
 def _time_bar(observation: Observation, settings: MissionSettings, columns: int) -> Row:
     spent = columns * observation.time_ms // settings.duration_ms
-    reds_end = columns * min(settings.red_expiry_ms, settings.duration_ms) // settings.duration_ms
+    reds_end = columns * min(settings.reds_expire_ms, settings.duration_ms) // settings.duration_ms
     red = max(0, reds_end - spent)
     return (
         ("─" * spent, "faint"),
@@ -65,7 +65,7 @@ def _counts(observation: Observation) -> Row:
 
 
 def _reds(observation: Observation, settings: MissionSettings) -> Row:
-    left = min(settings.red_expiry_ms, settings.duration_ms) - observation.time_ms
+    left = min(settings.reds_expire_ms, settings.duration_ms) - observation.time_ms
     red = SOLID[victim_kind(Severity.RED, VictimState.WAITING)].text
     if left <= 0:
         return (red, "seen-red"), (" out of time", "faint")

@@ -250,7 +250,7 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     page = filled(
         texts.mission,
         time=texts.units.time(rules.duration_ms),
-        red_time=texts.units.time(rules.red_expiry_ms),
+        red_time=texts.units.time(rules.reds_expire_ms),
         victims=str(len(building.victims)),
         reds=str(sum(site.severity is Severity.RED for site in building.victims)),
         instructor=texts.instructors.of(step.round),
