@@ -3,12 +3,13 @@
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from os import cpu_count
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
 from analysis.sources.recorded import ANALYSED, Recorded, frame_of, recorded
-from game.journal.folders import SESSIONS, journals
+from game.journal.folders import SESSIONS, journals, misplaced
 from game.journal.reader import read_journal
 from game.journal.records import STUDY_MODES, StudyMode
 from game.session.verification import verify
@@ -53,10 +54,8 @@ def read_study_folder(
             place=str(folder / SESSIONS / mode),
             hint=f"Take those that there are: {_there_are(folder)}",
         )
-    read = _read_all(paths, check, tick)
+    read = _read_all(folder, mode, paths, check, tick)
     _refuse_changed(read)
-    for one in read:
-        _refuse_mislabelled(one, mode)
     tables = combined(one.tables for one in read)
     frames = {name: frame_of(name, tables.table(name)) for name in ANALYSED}
     schemas = sorted({one.schema for one in read})
@@ -109,22 +108,27 @@ def _options(modes: Sequence[StudyMode]) -> str:
     return " or ".join(f"--mode {mode}" for mode in modes)
 
 
-def _read_all(paths: Sequence[Path], check: bool, tick: Tick) -> list[_Read]:
+def _read_all(
+    folder: Path, mode: StudyMode, paths: Sequence[Path], check: bool, tick: Tick
+) -> list[_Read]:
     read: list[_Read] = []
     if len(paths) < MANY:
         for path in paths:
-            read.append(_read(path, check))
+            read.append(_read(folder, mode, path, check))
             tick(len(read), len(paths))
         return read
     with ProcessPoolExecutor(min(len(paths), cpu_count() or 1)) as pool:
-        for one in pool.map(_read, paths, [check] * len(paths)):
+        for one in pool.map(partial(_read, folder, mode, check=check), paths):
             read.append(one)
             tick(len(read), len(paths))
     return read
 
 
-def _read(path: Path, check: bool) -> _Read:
+def _read(folder: Path, mode: StudyMode, path: Path, check: bool) -> _Read:
     transcript = read_journal(path)
+    wrong = misplaced(transcript.started, folder, mode, path.parent.name)
+    if wrong:
+        raise SourceError(wrong, place=str(path), hint="Put it back where it was recorded")
     tables = replace(session_tables(transcript), actions=(), freetext=())
     difference = verify(path).difference if check else None
     told = "" if difference is None else str(difference)
@@ -139,23 +143,6 @@ def _refuse_changed(read: Sequence[_Read]) -> None:
         raise SourceError(
             f"{len(changed)} of {len(read)} journals do not verify: {told}{more}",
             hint="Restore the originals, or analyse them as they are with --no-verify",
-        )
-
-
-def _refuse_mislabelled(one: _Read, mode: StudyMode) -> None:
-    person = one.tables.participants[0]
-    if person.mode != mode or person.simulated is not (mode == "simulated"):
-        kind = "simulated" if person.simulated else "real"
-        raise SourceError(
-            f"this is a {kind} session of mode {person.mode} among the {mode} ones",
-            place=str(one.path),
-            hint="Put it back where it was recorded",
-        )
-    if person.participant != one.path.parent.name:
-        raise SourceError(
-            f"this is the journal of participant {person.participant}",
-            place=str(one.path),
-            hint="Put it back into that participant's folder",
         )
 
 

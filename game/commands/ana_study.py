@@ -130,17 +130,46 @@ def drop_participant(folder: Path, participant: str) -> None:
 @_FOLDER
 @_PARTICIPANT
 @click.option("--pilot", is_flag=True, help="Withdraw a pilot session.")
-def withdraw_participant(folder: Path, participant: str, pilot: bool) -> None:
-    """Delete everything recorded about participant ID.
+@click.option("--yes", is_flag=True, help="Do not ask; for scripts.")
+def withdraw_participant(folder: Path, participant: str, *, pilot: bool, yes: bool) -> None:
+    """Delete everything recorded about participant ID, after asking.
 
-    The ledger keeps only that they withdrew.
+    The ledger keeps that they withdrew, and which place they had.
     """
     from game.study.folder import identify, open_study
-    from game.study.lab.leaving import withdraw
+    from game.study.lab.leaving import recorded, withdraw
 
-    deleted = withdraw(open_study(folder), identify(participant, pilot=pilot))
+    study, identity = open_study(folder), identify(participant, pilot=pilot)
+    told = recorded(study, identity).told()
+    if not yes:
+        if not sys.stdin.isatty():
+            raise AnaError(
+                "withdrawing deletes data, and nobody can be asked here",
+                place=f"ana study withdraw {participant}",
+                hint="Give --yes",
+            )
+        click.echo(f"{participant} ({identity.mode}): {told}")
+        click.confirm("Delete everything recorded about them?", abort=True)
+    deleted = withdraw(study, identity)
     data = "their data are deleted" if deleted else "nothing had been recorded"
     click.echo(f"{participant} has withdrawn; {data}")
+
+
+@study_group.command("data", short_help="Give one participant their own data.")
+@_FOLDER
+@_PARTICIPANT
+@click.argument("out", metavar="OUT", type=click.Path(path_type=Path))
+@click.option("--pilot", is_flag=True, help="The data of a pilot session.")
+def give_data(folder: Path, participant: str, out: Path, *, pilot: bool) -> None:
+    """Write everything recorded about participant ID to the new folder OUT.
+
+    That is their whole journal, and its tables with a codebook.
+    """
+    from game.study.folder import identify, open_study
+    from game.study.lab.own_data import write_own_data
+
+    count = write_own_data(open_study(folder), identify(participant, pilot=pilot), out)
+    click.echo(f"{out}: {count} files with everything recorded about {participant}")
 
 
 @study_group.command("close", short_help="End recruiting.")
@@ -173,11 +202,22 @@ def close_study(folder: Path) -> None:
     show_default=True,
     help="Which sessions to export; repeatable. Each mode has its own files.",
 )
-def write_dataset(folder: Path, out: Path, modes: tuple[StudyMode, ...]) -> None:
+@click.option("--without", metavar="ID", multiple=True,
+              help="Leave this session out, and say so in the dataset; repeatable.")  # fmt: skip
+@click.option("--anonymous", is_flag=True,
+              help="Other pseudonyms and dates, and no answers in their own words.")  # fmt: skip
+def write_dataset(
+    folder: Path,
+    out: Path,
+    modes: tuple[StudyMode, ...],
+    *,
+    without: tuple[str, ...],
+    anonymous: bool,
+) -> None:
     """Write the study DIR to the folder OUT as a Psych-DS dataset with a codebook."""
     from game.study.lab.export import export_study
 
-    done = export_study(folder, out, modes)
+    done = export_study(folder, out, modes, without=without, anonymous=anonymous)
     for mode, sessions in done.sessions.items():
         click.echo(f"{out}: {mode} sessions {sessions}, rounds {done.rounds[mode]}")
     if done.unblinded:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from game.journal.folders import all_journals
 from game.session.verification import verify_files
 
 
@@ -14,7 +15,12 @@ from game.session.verification import verify_files
 def verify_command(journals: tuple[Path, ...]) -> int:
     """Replay JOURNALS from their recorded actions and compare every derived record.
 
+    A folder stands for the session in it, or for all sessions of a study.
+
     Exit status 0: all match; 1: one does not, and the first difference is named; 2: a file is not
     a journal.
     """
-    return verify_files(journals, click.echo)
+    paths = [
+        path for given in journals for path in (all_journals(given) if given.is_dir() else (given,))
+    ]
+    return verify_files(paths, click.echo)

@@ -44,7 +44,7 @@ from game.world.fitness import shortcomings
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
 
 _BUILDINGS = {"first": "foundry", "second": "harbour", "practice": "practice"}
-_PSEUDONYM = re.compile(r"[A-Za-z0-9_-]{1,32}")
+_PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,31}")
 _MOST_SEED = 2**31
 
 
@@ -89,8 +89,8 @@ def identify(participant: str, *, pilot: bool = False) -> Identity:
     if _PSEUDONYM.fullmatch(participant) is None:
         raise StudyError(
             f"'{participant}' is not a participant ID",
-            hint="Use a pseudonym of 1 to 32 letters, digits, - and _, such as P01; "
-            "not a name or an address",
+            hint="Use a pseudonym of 1 to 32 letters, digits, - and _ that begins with a letter or "
+            "digit, such as P01; not a name or an address",
         )
     return Identity("pilot" if pilot else "live", participant)
 
@@ -142,7 +142,7 @@ def open_study(folder: Path) -> Study:
     study = Study(
         folder=folder,
         settings=settings,
-        copy=StudyCopy(path.read_text(encoding="utf-8"), digest),
+        copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=read_texts(folder / TEXTS),
         items=read_items(folder / ITEMS),
         buildings=(

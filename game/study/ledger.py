@@ -272,11 +272,26 @@ class Ledger:
                 hint="Allow this account to write there",
             ) from error
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
+            lock_whole(descriptor, self.path)
             _drop_torn_tail(descriptor)
             yield write
         finally:
             os.close(descriptor)
+
+
+def lock_whole(descriptor: int, path: Path, *, wait: bool = True) -> None:
+    """Lock a file for this process alone. Raises BlockingIOError where another one has it and
+    `wait` is false, and LedgerError where the disk has no locks."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except BlockingIOError:
+        raise
+    except OSError as error:
+        raise LedgerError(
+            f"files cannot be locked on this disk ({error.strerror})",
+            place=str(path),
+            hint="Keep the study on a local disk: some network drives have no locks",
+        ) from error
 
 
 def agreement(entries: Sequence[LedgerEntry]) -> StudyCreated | SettingsAmended | None:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from game.journal.sink import make_folders
 from game.study.folder import StudyError
+from game.study.ledger import lock_whole
 
 LOCK = "lock"
 TAKEOVER_S = 3.0
@@ -50,12 +51,20 @@ class SessionLock:
             raise StudyError(
                 f"the session cannot be opened ({error.strerror})", place=str(home)
             ) from error
-        if not _locks(self._descriptor, GLANCE_S):
+        if not _locks(self._descriptor, self.path, GLANCE_S):
             pid = _holder(self._descriptor)
             os.close(self._descriptor)
             raise SessionBusy(self.path, pid, _silent_ms(home))
-        os.ftruncate(self._descriptor, 0)
-        os.pwrite(self._descriptor, f"{os.getpid()}\n".encode(), 0)
+        try:
+            os.ftruncate(self._descriptor, 0)
+            os.pwrite(self._descriptor, f"{os.getpid()}\n".encode(), 0)
+        except OSError as error:
+            os.close(self._descriptor)
+            raise StudyError(
+                f"the session cannot be opened ({error.strerror})",
+                place=str(home),
+                hint="Free some space on this disk",
+            ) from error
 
     def release(self) -> None:
         if self._descriptor >= 0:
@@ -93,16 +102,16 @@ def take_over(home: Path) -> SessionLock:
             with suppress(ProcessLookupError, PermissionError):
                 os.kill(busy.pid, number)
         with (home / LOCK).open("rb") as file:
-            _locks(file.fileno(), TAKEOVER_S)
+            _locks(file.fileno(), home / LOCK, TAKEOVER_S)
     return SessionLock(home)
 
 
-def _locks(descriptor: int, within_s: float) -> bool:
+def _locks(descriptor: int, path: Path, within_s: float) -> bool:
     """Lock the file for this process; whether that succeeded in time."""
     until = time.monotonic() + within_s
     while True:
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock_whole(descriptor, path, wait=False)
         except BlockingIOError:
             if time.monotonic() > until:
                 return False

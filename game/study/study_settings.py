@@ -91,6 +91,8 @@ class StudySettings(_Section, frozen=True):
     primary: Primary = Primary()
 
     def __post_init__(self) -> None:
+        if not self.name.strip():
+            raise ValueError("name must not be empty")
         _within("blocks", self.blocks, 1, 1_000)
         short, long = self.memorise_seconds
         _within("memorise_seconds", short, 1, 3_600)
@@ -115,7 +117,7 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
     """The settings in `path` and the SHA-256 of the file. Raises SettingsError, naming the key."""
     try:
         data = path.read_bytes()
-        text = data.decode()
+        text = data.decode("utf-8-sig")
         tree = tomllib.loads(text)
     except OSError as error:
         raise SettingsError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -11,6 +12,7 @@ import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
 LIKERT_POINTS = 5
@@ -229,6 +231,10 @@ class Items(_Part, frozen=True):
         )
         ids = [item.id for item in asked]
         for identifier in ids:
+            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", identifier):
+                raise ValueError(
+                    f"an id must be letters, digits and _, and begin with a letter: '{identifier}'"
+                )
             if ids.count(identifier) > 1:
                 raise ValueError(f"two items have the id {identifier}")
 
@@ -277,7 +283,8 @@ def _shipped_tree() -> dict[str, Any]:
 
 def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any]) -> _Read:
     try:
-        return msgspec.convert(otherwise | tomllib.loads(path.read_text(encoding="utf-8")), kind)
+        tree = otherwise | tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        read = msgspec.convert(tree, kind)
     except OSError as error:
         raise TextsError(
             f"the file cannot be read ({error.strerror})",
@@ -288,3 +295,6 @@ def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any]) -> _Read:
         raise TextsError(
             str(error), place=str(path), hint="Compare the file with the one in a new study folder"
         ) from error
+    if kind is Texts:
+        check_placeholders(tree, _shipped_tree(), str(path))
+    return read

@@ -22,6 +22,7 @@ _PLACED = re.compile(
     r"(?:room (?P<room>.+)|(?P<victim>red|blue) victim|start)"
     r" at (?P<x>\d+)\s*,\s*(?P<y>\d+)(?: facing (?P<facing>north|east|south|west))?"
 )
+_OTHER_SEPARATORS = {";": "semicolons", "\t": "tabs", " ": "spaces", "|": "bars"}
 _TILE_VALUES = "Use 0 for floor, 1 for wall or 2 for a door"
 _PLACINGS = (
     "Write 'room NAME at X,Y', 'red victim at X,Y', 'blue victim at X,Y' "
@@ -60,6 +61,11 @@ def read_grid(grid: str, source: str) -> Plan:
 def _grid_problems(rows: list[list[str]], source: str) -> Iterator[Problem]:
     if not rows:
         yield Problem(source, 1, 1, "the file is empty", "Fill it with rows of 0, 1 and 2")
+        return
+    apart = next((it for it in _OTHER_SEPARATORS if it in rows[0][0]), None)
+    if len(rows[0]) == 1 and apart is not None:
+        message = f"the values are separated by {_OTHER_SEPARATORS[apart]}, not by commas"
+        yield Problem(source, 1, 1, message, "Save the grid again with commas between the values")
         return
     width = len(rows[0])
     for number, row in enumerate(rows, start=1):

@@ -16,6 +16,9 @@ from game.world.geometry import Cell, Heading
 from game.world.plan import Plan
 from game.world.regions import Region, doors_of, doorways, floor_regions, label_cell, reachable
 
+MOST_CELLS, MOST_ROOMS = 40_000, 300
+"""A building has no more; the shipped ones have 5,000 cells and 20 rooms."""
+
 _NAME_MARKS = " -'&/"
 _OPEN_A_WAY = "Open a way to it with floor or a door"
 
@@ -93,6 +96,18 @@ class Drawing:
         return Problem(self.legend_source, line, 1, message, hint)
 
 
+def too_large(plan: Plan, rooms: int, source: str, line: int) -> Problem | None:
+    """The problem of a plan with more cells or rooms than can be worked with in a few seconds."""
+    cells = plan.width * plan.height
+    if cells > MOST_CELLS:
+        message = f"the plan has {plan.width} x {plan.height} = {cells} cells, at most {MOST_CELLS}"
+        return Problem(source, line, 1, f"{message} are possible", "Draw a smaller building")
+    if rooms > MOST_ROOMS:
+        message = f"the plan has {rooms} rooms, at most {MOST_ROOMS} are possible"
+        return Problem(source, line, 1, message, "Open some rooms to each other, or leave them out")
+    return None
+
+
 def build(drawing: Drawing, text: str) -> Building:
     """The building described by a valid drawing (one in which `survey` finds nothing)."""
     doors = drawing.doors
@@ -111,7 +126,10 @@ def build(drawing: Drawing, text: str) -> Building:
 
 
 def survey(drawing: Drawing) -> tuple[Problem, ...]:
-    """Everything that makes a drawing invalid, in file order."""
+    """Everything that makes a drawing invalid, in file order; of a too large one, only that."""
+    too_much = too_large(drawing.plan, len(drawing.rooms), drawing.source, drawing.top_line)
+    if too_much is not None:
+        return (too_much,)
     return tuple(
         sorted(
             (

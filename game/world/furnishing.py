@@ -9,7 +9,7 @@ from __future__ import annotations
 from random import Random
 
 from game.world.building import Door, Severity
-from game.world.drawing import BuildingError, Drawing, Problem, RoomMark
+from game.world.drawing import BuildingError, Drawing, Problem, RoomMark, too_large
 from game.world.geometry import Cell, Heading
 from game.world.labels import label_lines
 from game.world.plan import Plan
@@ -27,8 +27,10 @@ def furnish(plan: Plan, name: str, seed: int, source: str) -> Drawing:
     The enclosed space with the most doors (the largest of several) is the hallway network, which
     has the start. Every other enclosed space that can be reached and is not tiny is a room.
     Victims are spread evenly over the rooms as far as there is space. Raises BuildingError if
-    the plan has no room.
+    the plan has no room, or is too large.
     """
+    if (problem := too_large(plan, 0, source, 1)) is not None:
+        raise BuildingError((problem,))
     doors = doorways(plan)
     regions = floor_regions(plan)
     hallway = max(
@@ -48,6 +50,8 @@ def furnish(plan: Plan, name: str, seed: int, source: str) -> Drawing:
             "the grid has no room that is connected by a door",
             "Mark the doors between rooms and hallways with 2",
         )
+        raise BuildingError((problem,))
+    if (problem := too_large(plan, len(rooms), source, 1)) is not None:
         raise BuildingError((problem,))
     start = _stream("start", seed).choice(hallway)
     marks = tuple(

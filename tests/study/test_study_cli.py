@@ -50,11 +50,11 @@ def test_a_change_is_amended(copy: Study, capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_withdrawal(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot"]) == 0
+    assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot", "--yes"]) == 0
     assert "their data are deleted" in capsys.readouterr().out
     assert not copy.home(P01).exists()
     assert ending_of(copy.ledger.entries(), "P01", "pilot") == "withdrawn"
-    assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot"]) == 0
+    assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot", "--yes"]) == 0
     assert "nothing had been recorded" in capsys.readouterr().out
 
 

@@ -62,6 +62,9 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     """From a change on the bar until reading begins (Hick, 1952: a choice of one in four keys)."""
     word_ms: float = 190.0
     """Silent reading at 252 ms a word (Brysbaert, 2019), faster for stock phrases."""
+    recall_ms: float = 900.0
+    """To call the place of a room to mind, once its name has been read (judgement; the mental
+    operator of the keystroke-level model is 1.35 s)."""
     step_ms: float = 215.0
     """A step before any has been timed: the mission's pace and a little."""
     turn_ms: float = 90.0
@@ -71,8 +74,8 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     slip_c1_ms: float = 3_000.0
     """What it costs to notice and correct it."""
     interpret_ms: float = 700.0
-    """To match each sentence of C2 after the first to the screen, for people who know no room; in
-    proportion less with knowledge (paper 5.5)."""
+    """To match each sentence of C2 to the screen, once it has been read, for people who know no
+    room; in proportion less with knowledge (paper 5.5)."""
     miscount: tuple[float, float] = (0.03, 0.05)
     """Chance of a miscount for each door or opening counted at C2: for everybody, and what is added
     for people who know no room."""

@@ -190,7 +190,8 @@ class KnowledgeLearner:
             words = first_words(
                 shown.instruction, shown.notice, turns_need_a_key=self._turns_need_a_key
             )
-            self.habits.answered(ms, self.times.usual_reading(words))
+            recalls = shown.instruction.tuples[0][0] == "Goto"
+            self.habits.answered(ms, self.times.usual_reading(words, recalls=recalls))
 
     def _moved(self, event: Acted, position: Cell) -> None:
         """A step; one with the same key as the step before tells the pace."""

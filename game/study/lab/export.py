@@ -10,18 +10,19 @@ from __future__ import annotations
 import os
 import shutil
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 
 from game import __version__
-from game.journal.folders import JOURNAL, transcripts
+from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
 from game.journal.records import StudyMode
 from game.journal.sink import make_folders
 from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, StudyError
+from game.study.lab.anonymous import anonymised
 from game.study.lab.psychds import (
     IGNORE_FILES,
     IGNORED,
@@ -32,7 +33,8 @@ from game.study.lab.psychds import (
     file_name,
     table_text,
 )
-from game.study.ledger import Ledger, ending_of
+from game.study.lab.sessions import sessions_of
+from game.study.ledger import Ledger
 from game.study.study_settings import read_settings
 from game.tables.rows import TableRow
 from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
@@ -55,11 +57,20 @@ class Exported:
     unblinded: bool
 
 
-def export_study(folder: Path, out: Path, modes: Sequence[StudyMode] = ("live",)) -> Exported:
+def export_study(
+    folder: Path,
+    out: Path,
+    modes: Sequence[StudyMode] = ("live",),
+    *,
+    without: Collection[str] = (),
+    anonymous: bool = False,
+) -> Exported:
     """Write the dataset of the study in `folder` to `out`, replacing an earlier export there.
 
-    Exporting the live data of an open study unblinds it, which the ledger records. Raises
-    StudyError if `out` is something else, and JournalError for a journal that cannot be read; in
+    The sessions in the folders `without` are left out, and the dataset says so. `anonymous` gives
+    everybody another pseudonym and other dates, and leaves their own words out. Exporting the live
+    data of an open study unblinds it, which the ledger records. Raises StudyError if `out` is
+    something else, and JournalError for a journal that cannot be read or does not belong there; in
     both cases nothing is changed.
     """
     ledger = Ledger(folder / LEDGER)
@@ -68,16 +79,18 @@ def export_study(folder: Path, out: Path, modes: Sequence[StudyMode] = ("live",)
     found: dict[StudyMode, Tables] = {}
     files: dict[str, bytes] = {}
     for mode in dict.fromkeys(modes):
+        left_out = [name for name in without if (folder / SESSIONS / mode / name).is_dir()]
         sessions = [
-            transcript
-            for transcript in transcripts(folder, mode)
-            if ending_of(entries, transcript.started.participant, mode) != "withdrawn"
+            (transcript, without_free_text(_lines_read(transcript)))
+            for transcript in sessions_of(folder, mode, entries, left_out)
         ]
-        found[mode] = combined(tables_of(sessions))
-        for transcript in sessions:
-            raw = f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"
-            files[raw] = without_free_text(_lines_read(transcript))
-    files |= _described(folder, settings.name, found)
+        if anonymous:
+            sessions = anonymised(sessions)
+        found[mode] = combined(tables_of(transcript for transcript, _ in sessions))
+        for transcript, lines in sessions:
+            files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
+    _all_there(folder, modes, without)
+    files |= _described(folder, settings.name, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
     _replace(out, files)
@@ -86,6 +99,36 @@ def export_study(folder: Path, out: Path, modes: Sequence[StudyMode] = ("live",)
         rounds={mode: len(tables.rounds) for mode, tables in found.items()},
         unblinded=unblinded,
     )
+
+
+@dataclass(frozen=True)
+class _Handling:
+    """What was done to the sessions before they were written."""
+
+    without: tuple[str, ...]
+    anonymous: bool
+
+    def told(self) -> str:
+        """The sentences that say so; empty where nothing was done."""
+        left = f" Left out on purpose: {', '.join(self.without)}." if self.without else ""
+        if self.anonymous and self.without:
+            left = f" Left out on purpose: {len(self.without)}."
+        changed = (
+            " Pseudonyms are not those of the study, each participant's dates are shifted by a "
+            "random time, and answers in participants' own words are left out."
+        )
+        return left + (changed if self.anonymous else "")
+
+
+def _all_there(folder: Path, modes: Sequence[StudyMode], without: Collection[str]) -> None:
+    """Raise StudyError unless each of `without` is a session of one of the modes."""
+    for name in without:
+        if not any((folder / SESSIONS / mode / name).is_dir() for mode in modes):
+            raise StudyError(
+                f"there is no session of {name} to leave out",
+                place=str(folder),
+                hint="Give the name of its folder in sessions",
+            )
 
 
 def _lines_read(transcript: Transcript) -> bytes:
@@ -112,7 +155,9 @@ def _without_answer(line: bytes) -> bytes:
     return msgspec.json.encode(fields | {"answer": ""}) + b"\n"
 
 
-def _described(folder: Path, name: str, found: dict[StudyMode, Tables]) -> dict[str, bytes]:
+def _described(
+    folder: Path, name: str, found: dict[StudyMode, Tables], handling: _Handling
+) -> dict[str, bytes]:
     """All files except the raw journals, by path."""
     texts = {
         f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
@@ -120,14 +165,15 @@ def _described(folder: Path, name: str, found: dict[StudyMode, Tables]) -> dict[
         )
         for mode, tables in found.items()
         for table, row in ROW_TYPES.items()
+        if not (handling.anonymous and table == FREE_TEXT)
     }
     texts |= dict.fromkeys(IGNORE_FILES, IGNORED)
-    texts["README.md"] = _readme(name, found)
+    texts["README.md"] = _readme(name, found, handling)
     texts["documentation/codebook.md"] = codebook_page(ROW_TYPES)
     texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
     files = {path: text.encode() for path, text in texts.items()}
     rows: Sequence[type[TableRow]] = tuple(ROW_TYPES.values())
-    files[DESCRIPTION] = description(name, _summary(found), _notes(folder), rows)
+    files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, ITEMS):
         files[f"materials/{material}"] = (folder / material).read_bytes()
     return files
@@ -143,14 +189,14 @@ def _summary(found: dict[StudyMode, Tables]) -> str:
     )
 
 
-def _readme(name: str, found: dict[StudyMode, Tables]) -> str:
+def _readme(name: str, found: dict[StudyMode, Tables], handling: _Handling) -> str:
     tables = "\n".join(
         f"- `{table}`: {(row.__doc__ or '').split('.')[0].strip()}."
         for table, row in ROW_TYPES.items()
     )
     return f"""# {name}
 
-{_summary(found)} A Psych-DS dataset, written by ana {__version__}.
+{_summary(found)}{handling.told()} A Psych-DS dataset, written by ana {__version__}.
 
 - `data/`: tidy tables, one file per table and mode (`session-live`, `-pilot`, `-simulated`).
 - `data/{APART}/`: what participants wrote in their own words, which may identify them. Check it,

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import shutil
+from typing import NamedTuple
 
+from game.errors import did_you_mean
+from game.journal.folders import JOURNAL, homes
+from game.journal.history import read_history
+from game.journal.reader import read_journal
 from game.journal.sink import sync_folder
 from game.study.folder import Identity, Study, StudyError
 from game.study.ledger import ending_of, slot_of
@@ -31,6 +36,45 @@ def drop_out(study: Study, identity: Identity) -> None:
         study.ledger.end_session(participant, mode, "dropped")
     finally:
         lock.release()
+
+
+class Recorded(NamedTuple):
+    """What is known about a participant before they withdraw."""
+
+    since_utc: str
+    phase: str
+    round: int
+    records: int
+
+    def told(self) -> str:
+        """In words: how far they are, and since when."""
+        if not self.records:
+            return "nothing has been recorded"
+        far = f"{self.phase}, round {self.round}" if self.round else self.phase
+        return f"{self.records} records since {self.since_utc}; last phase: {far}"
+
+
+def recorded(study: Study, identity: Identity) -> Recorded:
+    """What is there of a participant. Raises StudyError where the study never heard of them."""
+    home, entries = study.home(identity), study.ledger.entries()
+    mode, participant = identity
+    known = slot_of(entries, participant, mode) or ending_of(entries, participant, mode)
+    if not home.is_dir() and not known:
+        there = [one.name for one in homes(study.folder, mode)]
+        raise StudyError(
+            f"there is no participant {participant} among the {mode} ones of this study",
+            place=str(study.folder),
+            hint=did_you_mean(participant, there)
+            or "`ana study status` lists who there is",
+        )
+    path = home / JOURNAL
+    if not path.is_file():
+        return Recorded("", "", 0, 0)
+    transcript = read_journal(path)
+    history = read_history(transcript)
+    return Recorded(
+        history.started_utc, history.step.phase, history.step.round, len(transcript.entries)
+    )
 
 
 def withdraw(study: Study, identity: Identity) -> bool:

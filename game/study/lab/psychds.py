@@ -17,12 +17,16 @@ from typing import Any
 
 import msgspec
 
-from game.tables.columns import TableColumn, cells, columns
+from game.tables.columns import TableColumn, cell, columns
 from game.tables.rows import TableRow
 
-IGNORED = "data/raw/\n"
+IGNORED = "data/raw/\nraw/\n"
 IGNORE_FILES = (".psychds-ignore", ".psychdsignore")
 """Older and newer validators read one or the other."""
+
+
+_FORMULA = ("=", "+", "-", "@")
+"""How a text begins that a spreadsheet would compute."""
 
 
 class DatasetNotes(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -53,7 +57,14 @@ def alphanumeric(words: str) -> str:
 
 def table_text(row: type[TableRow], rows: Iterable[TableRow]) -> str:
     """A table as CSV with a header."""
-    return _csv([column.name for column in columns(row)], (list(cells(one)) for one in rows))
+    names = [column.name for column in columns(row)]
+    return _csv(names, ([_safe(getattr(one, name)) for name in names] for one in rows))
+
+
+def _safe(value: object) -> str:
+    """A cell. Text that a spreadsheet would take for a formula gets an apostrophe before it."""
+    text = cell(value)
+    return f"'{text}" if isinstance(value, str) and text.startswith(_FORMULA) else text
 
 
 def all_columns(tables: Iterable[type[TableRow]]) -> dict[str, TableColumn]:
@@ -102,7 +113,8 @@ def codebook_page(tables: Mapping[str, type[TableRow]]) -> str:
     """The codebook as Markdown."""
     parts = [
         "# Codebook\n\nAn empty cell means that there is no value: not asked, not answered or not "
-        "reached. Line breaks within a text are written as spaces. Mission times count from the "
+        "reached. Line breaks within a text are written as spaces, and a text that a spreadsheet "
+        "would take for a formula has an apostrophe before it. Mission times count from the "
         "start of the mission.\n\n"
     ]
     for name, row in tables.items():

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import msgspec
 
-from game.journal.folders import transcripts
 from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS
 from game.study.lab.attendance import Attendance, SessionStatus
+from game.study.lab.sessions import sessions_of
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -109,7 +109,7 @@ def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[C
         for entry in entries
         if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    people = combined(tables_of(transcripts(folder, "live"))).participants
+    people = combined(tables_of(sessions_of(folder, "live", entries))).participants
     counts = []
     for code in sorted({entry.cell.code for entry in taken.values()}):
         here = [

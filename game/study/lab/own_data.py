@@ -1,0 +1,42 @@
+"""Everything recorded about one participant, for that participant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from game.journal.folders import JOURNAL
+from game.journal.reader import read_file, read_journal
+from game.study.folder import Identity, Study, StudyError
+from game.study.lab.leaving import recorded
+from game.study.lab.psychds import codebook_page, table_text
+from game.tables.session_tables import ROW_TYPES, session_tables
+
+
+def write_own_data(study: Study, identity: Identity, out: Path) -> int:
+    """Write the journal, its tables and their codebook to the new folder `out`; how many files.
+
+    Raises StudyError where the study never heard of the participant, nothing was recorded, or `out`
+    is there already or cannot be written.
+    """
+    if not recorded(study, identity).records:
+        raise StudyError(
+            f"nothing has been recorded about {identity.participant}", place=str(study.folder)
+        )
+    if out.exists():
+        raise StudyError("there already is such a folder", place=str(out), hint="Choose a new one")
+    path = study.home(identity) / JOURNAL
+    tables = session_tables(read_journal(path))
+    files = {JOURNAL: read_file(path), "codebook.md": codebook_page(ROW_TYPES).encode()}
+    for name, row in ROW_TYPES.items():
+        files[f"{name}.csv"] = table_text(row, tables.table(name)).encode()
+    try:
+        out.mkdir(mode=0o700, parents=True)
+        for name, data in files.items():
+            (out / name).write_bytes(data)
+    except OSError as error:
+        raise StudyError(
+            f"the data cannot be written ({error.strerror})",
+            place=str(out),
+            hint="Choose a folder that you can write to",
+        ) from error
+    return len(files)

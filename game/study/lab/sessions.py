@@ -1,0 +1,43 @@
+"""The sessions of a study that its ledger knows: what export and status count."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+from game.journal.folders import PUT_BACK, transcripts
+from game.journal.journal_error import JournalError
+from game.journal.reader import Transcript
+from game.journal.records import Allocated, StudyMode
+from game.study.ledger import LedgerEntry, ending_of, slot_of
+
+
+def sessions_of(
+    folder: Path, mode: StudyMode, entries: Sequence[LedgerEntry], without: Collection[str] = ()
+) -> list[Transcript]:
+    """The sessions of a mode but for withdrawn ones and those in the folders `without`.
+
+    Raises JournalError, naming the file, for one that cannot be read, lies in the wrong place or
+    has a place that the ledger does not know.
+    """
+    found = []
+    for transcript in transcripts(folder, mode, without):
+        participant = transcript.started.participant
+        if ending_of(entries, participant, mode) == "withdrawn":
+            continue
+        if wrong := without_a_place(transcript, entries, mode):
+            raise JournalError(wrong, place=transcript.source, hint=PUT_BACK)
+        found.append(transcript)
+    return found
+
+
+def without_a_place(transcript: Transcript, entries: Sequence[LedgerEntry], mode: StudyMode) -> str:
+    """Why the place in a session's journal is not one of this study's; empty if it is."""
+    taken = [entry.record for entry in transcript.entries if isinstance(entry.record, Allocated)]
+    held = slot_of(entries, transcript.started.participant, mode)
+    if taken and (held is None or held.slot != taken[-1].slot):
+        known = "none" if held is None else str(held.slot)
+        return (
+            f"this session has place {taken[-1].slot}, but the ledger gave its participant {known}"
+        )
+    return ""
