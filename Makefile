@@ -27,9 +27,9 @@ lab: $(VENV)/all.stamp  ## open the notebooks on the shipped simulated study
 reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure and page from it
 	@$(BIN)/python -m analysis.reproduce out
 
-COMPARED := static:1,static:2,static:3,ana,ana:calibrated,ana:belief,knowledge,knowledge+quiz,truth,listening:1,listening:2,listening:3
+COMPARED := static:1,static:2,static:3,ana,ana:calibrated,ana:belief,knowledge,knowledge+quiz,truth
 
-coaches: $(VENV)/all.stamp  ## compare the coaches on simulated people (half an hour on two cores)
+coaches: $(VENV)/all.stamp  ## compare the coaches on simulated people (twenty minutes on two cores)
 	@mkdir -p out
 	@$(BIN)/ana compare --coaches "$(COMPARED)" --people 100 --json out/coaches.json --figures out/coaches
 

@@ -1,11 +1,14 @@
 """`ana compare`: the same people with every coach, the same numbers on any number of cores."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from game.cli import main
+from game.coach.spec import parse_coach
 from game.errors import AnaError
 from game.rescuers.person import POPULATIONS
 from game.simulation.comparison import Matter, People, Plan, play, trials
@@ -31,6 +34,15 @@ def test_every_coach_meets_the_same_person() -> None:
     one, same, other = play(plan("static:1", "static:1", "ana"), Matter("default", "practice", 0))
     assert one == same
     assert other.known == one.known
+
+
+def test_a_static_coach_that_listens_says_what_a_static_coach_says() -> None:
+    asked = plan("static:2", "knowledge")
+    listening = play(asked, Matter("default", "practice", 0))[0]
+    silent = replace(asked.coaches[0], spec=parse_coach("static", 2), rule=None)
+    deaf = play(replace(asked, coaches=(silent,)), Matter("default", "practice", 0))[0]
+    assert msgspec.structs.replace(listening, comprehension=None) == deaf
+    assert listening.comprehension is not None
 
 
 def test_the_two_sets_of_people_have_nobody_in_common() -> None:

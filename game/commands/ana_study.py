@@ -23,10 +23,22 @@ if TYPE_CHECKING:
 
 FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
 
-_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+
+def _as_its_owner(ctx: click.Context, _param: click.Parameter, folder: Path) -> Path:
+    """Refuse another account than the folder's owner."""
+    from game.study.folder import refuse_other_accounts
+
+    refuse_other_accounts(folder, f"{ctx.command_path} {folder} ...")
+    return folder
+
+
+_FOLDER = click.argument(
+    "folder", metavar="DIR", type=click.Path(path_type=Path), callback=_as_its_owner
+)
 _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 _STATUS_TROUBLE = 2
+STATUS_WRONG = 1
 _UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
 
 
@@ -76,9 +88,10 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
 def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> int:
     """Show where every participant of the study DIR is, and any problems.
 
-    Changes nothing, and does not reveal anyone's allocation.
+    Changes nothing, and does not reveal anyone's allocation. Exit status 1 where something keeps
+    people from logging in, or does not belong in the folder.
     """
-    from game.study.lab.status_text import page
+    from game.study.lab.status_text import HINDRANCES, page
     from game.study.lab.study_status import StatusReader, breakdown
     from game.tables.exclusions import read_rules
 
@@ -96,19 +109,24 @@ def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> 
         tree = msgspec.to_builtins(now) | ({"design_cells": cells} if shown else {})
         click.echo(msgspec.json.format(msgspec.json.encode(tree), indent=2))
     else:
-        click.echo("\n".join(page(now, cells)))
-    return 0
+        wrong = {f"  {hindrance}" for hindrance in now.hindrances} | {HINDRANCES}
+        for line in page(now, cells):
+            click.echo(click.style(line, fg="red", bold=True) if line in wrong else line)
+    return STATUS_WRONG if now.hindrances else 0
 
 
-@study_group.command("amend", short_help="Record a change of study.toml.")
+@study_group.command("amend", short_help="Record a change of settings, texts or buildings.")
 @_FOLDER
 @click.option("--why", required=True, metavar="TEXT", help="The reason, kept in the ledger.")
 def amend_settings(folder: Path, why: str) -> None:
-    """Record that study.toml was changed after the first participant, and why."""
+    """Record that something was changed after the first participant, and why.
+
+    That is study.toml, texts.toml, items.toml or a building. Until then nobody can log in.
+    """
     from game.study.folder import amend
 
-    amend(folder, why)
-    click.echo(f"{folder}: change recorded; sessions continue with the new settings")
+    changed = ", ".join(amend(folder, why))
+    click.echo(f"{folder}: change of {changed} recorded; sessions continue with what is there now")
 
 
 @study_group.command("drop", short_help="Record a drop-out; data are kept.")

@@ -113,7 +113,8 @@ class SessionStarted(SessionRecord, frozen=True, tag="session_started", kw_only=
 
     `settings` are the session's rules (each mission repeats its own). `rescuer` is `person`, or
     the name of the simulated rescuer if `simulated` is true. `participant` is a pseudonym. In free
-    play it is empty and `study` is None.
+    play it is empty and `study` is None. `inputs` is the SHA-256 of everything that the session is
+    made from, by name: settings, texts, items and buildings.
     """
 
     session: str
@@ -126,6 +127,7 @@ class SessionStarted(SessionRecord, frozen=True, tag="session_started", kw_only=
     seed: int
     terminal: Terminal | None
     study: StudyCopy | None = None
+    inputs: dict[str, str] = {}
 
 
 class Resumed(SessionRecord, frozen=True, tag="resumed", kw_only=True):
@@ -264,6 +266,7 @@ class QuizAnswer(SessionRecord, frozen=True, tag="quiz_answer"):
     answer: str | None
     correct: bool
     response_ms: int
+    version: str = ""
 
 
 class QuizSubmitted(SessionRecord, frozen=True, tag="quiz_submitted"):
@@ -275,7 +278,8 @@ class QuizSubmitted(SessionRecord, frozen=True, tag="quiz_submitted"):
 
 class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer", kw_only=True):
     """An item was answered. `text` and `anchors` are as shown; `place` is its place in the order
-    shown, from 0; `response_ms` runs from when it was shown; `changes` counts changes of answer."""
+    shown, from 0; `response_ms` runs from when it was shown; `changes` counts changes of answer.
+    `version`, of this and every other answer, names the study's inputs by which it was asked."""
 
     item: str
     text: str
@@ -284,6 +288,7 @@ class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer"
     value: int
     response_ms: int
     changes: int = 0
+    version: str = ""
 
 
 class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_only=True):
@@ -294,6 +299,7 @@ class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_onl
     options: tuple[str, ...]
     preferred_round: Literal[1, 2]
     response_ms: int
+    version: str = ""
 
 
 class FreeText(SessionRecord, frozen=True, tag="free_text"):
@@ -303,6 +309,7 @@ class FreeText(SessionRecord, frozen=True, tag="free_text"):
     text: str
     answer: str
     response_ms: int
+    version: str = ""
 
 
 class Debriefed(SessionRecord, frozen=True, tag="debriefed"):
@@ -316,10 +323,13 @@ class TakenOver(SessionRecord, frozen=True, tag="takeover"):
 
 
 class StudyAmended(SessionRecord, frozen=True, tag="study_amended"):
-    """From here on the session runs under a changed study.toml."""
+    """From here on the session is made from other `inputs` (as in `session_started`): what
+    `changed`, and why."""
 
     study: StudyCopy
     why: str
+    inputs: dict[str, str] = {}
+    changed: tuple[str, ...] = ()
 
 
 class Withdrawn(SessionRecord, frozen=True, tag="withdrawn"):

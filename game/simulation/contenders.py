@@ -8,7 +8,6 @@ from typing import TypeVar
 
 import msgspec
 
-from game.coach.acts import Level
 from game.coach.api import Briefing, Coach
 from game.coach.kinds.ana import Ana
 from game.coach.kinds.knowledge import KnowledgeCoach
@@ -27,10 +26,9 @@ TRUTH = "truth"
 TOLD = msgspec.structs.replace(
     ASSUMED, quiz_right=(0.999, 0.001), quiz_wrong=(0.001, 0.999), quiz_blank=(0.001, 0.999)
 )
-LISTENING = "listening"
-"""A coach who keeps one level and evaluates the walk all the same, as `ana` does: what P(g* | path)
-can tell at that level."""
 UNMOVED = msgspec.structs.replace(FLOODFILL, agreement=1_000_000, lowers_when_lost=False)
+"""A static coach who listens: it evaluates the walk as `ana` does, and never changes its level.
+So the comparison also shows what P(g* | path) can tell at each level."""
 NAMED = ("ana:PRESET", "static:LEVEL", "knowledge:NUMBER=VALUE", "FILE.py:CLASS")
 
 
@@ -64,10 +62,8 @@ def contender(name: str) -> Contender:
         return Contender(name, None)
     kind, colon, choice = name.partition(SEPARATOR)
     if colon and kind == "static" and choice.isdigit():
-        return Contender(name, parse_coach(kind, int(choice)))
-    if colon and kind == LISTENING and choice in ("1", "2", "3"):
-        first_level = Level(int(choice))
-        return Contender(name, None, rule=msgspec.structs.replace(UNMOVED, first_level=first_level))
+        level = parse_coach(kind, int(choice)).level
+        return Contender(name, None, rule=msgspec.structs.replace(UNMOVED, first_level=level))
     if colon and kind == "knowledge":
         return Contender(name, None, _changed(name, ASSUMED, choice))
     if colon and kind == "ana":

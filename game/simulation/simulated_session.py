@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -46,6 +47,7 @@ def play_session(study: Study, taken: SlotTaken, population: Population) -> byte
         items=study.items,
         buildings=study.buildings,
         practice=study.practice,
+        inputs=study.inputs,
         taken=taken,
     )
     session = open_session(
@@ -71,7 +73,7 @@ class _HeldSlot(Ledger):
     def entries(self) -> tuple[LedgerEntry, ...]:
         return (self._taken,)
 
-    def agree(self, settings_hash: str) -> None:
+    def agree(self, inputs: Mapping[str, str]) -> None:
         pass
 
     def allocate(self, participant: str, mode: StudyMode, *, refill: bool = False) -> SlotTaken:
@@ -86,6 +88,9 @@ class HeldStudy(Study):
     """A study as seen by one simulated participant, who already has the slot `taken`."""
 
     taken: SlotTaken
+
+    def keep_copies(self) -> None:
+        pass
 
     @property
     def ledger(self) -> Ledger:

@@ -40,7 +40,8 @@ def simulate(
     """
     study = _opened(folder, seed, participants, preset, coach)
     ledger = Ledger(folder / LEDGER, simulated_now)
-    ledger.agree(study.copy.sha256)
+    ledger.agree(study.inputs)
+    study.keep_copies()
     _same_people(study, population)
     slots = [ledger.allocate(name, "simulated") for name in names(participants)]
     finished = [taken for taken in slots if _journal_of(study, taken).exists()]

@@ -2,21 +2,26 @@
 
 DIR/study.toml, texts.toml, items.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
+DIR/versions/                               every version of what sessions were made from
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
 """
 
 from __future__ import annotations
 
+import csv
+import os
+import pwd
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from hashlib import sha256
 from importlib import resources
 from pathlib import Path
 from secrets import randbelow
 from typing import NamedTuple
 
 from game.coach.spec import DEFAULT_PRESET
-from game.errors import AnaError
+from game.errors import AnaError, did_you_mean
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
@@ -25,7 +30,6 @@ from game.study.ledger import (
     LedgerEntry,
     SettingsAmended,
     StudyCreated,
-    agreed_hash,
     agreement,
     utc_now,
 )
@@ -42,6 +46,10 @@ from game.world.building import Building
 from game.world.fitness import shortcomings
 
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
+VERSIONS = "versions"
+"""Copies of everything that sessions were made from."""
+ROSTER = "roster.csv"
+"""Who may take part; optional."""
 
 _BUILDINGS = {"first": "foundry", "second": "harbour", "practice": "practice"}
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,31}")
@@ -70,6 +78,40 @@ class Study:
     items: Items
     buildings: tuple[Building, Building]
     practice: Building
+    inputs: Mapping[str, str]
+    """The SHA-256 of everything that a session is made from, by name."""
+
+    @property
+    def version(self) -> str:
+        """A short name of the inputs, for each answer: the beginning of their joint SHA-256."""
+        lines = "".join(f"{name} {digest}\n" for name, digest in sorted(self.inputs.items()))
+        return sha256(lines.encode()).hexdigest()[:12]
+
+    def freeze(self) -> None:
+        """Make sure that the inputs are those that were agreed on, and keep a copy of each.
+
+        Raises LedgerError for a change that was not recorded, StudyError where no copy can be kept.
+        """
+        self.ledger.agree(self.inputs)
+        self.keep_copies()
+
+    def keep_copies(self) -> None:
+        """Keep the inputs as they are now in the folder `versions`, each version once."""
+        buildings = {name_of(it): it.text.encode() for it in (*self.buildings, self.practice)}
+        try:
+            for name, digest in self.inputs.items():
+                path = self.folder / VERSIONS / f"{Path(name).stem}-{digest[:12]}{_ending(name)}"
+                if not path.exists():
+                    make_folders(path.parent)
+                    data = buildings.get(name) or (self.folder / name).read_bytes()
+                    path.touch(mode=0o600)
+                    path.write_bytes(data)
+        except OSError as error:
+            raise StudyError(
+                f"no copy of the study's texts can be kept ({error.strerror})",
+                place=str(self.folder / VERSIONS),
+                hint="Free some space, and let the study's account write there",
+            ) from error
 
     @property
     def ledger(self) -> Ledger:
@@ -82,6 +124,63 @@ class Study:
     def building(self, name: str) -> Building:
         """The mission building that the settings call `name`."""
         return self.buildings[self.settings.buildings.index(name)]
+
+
+def roster_of(folder: Path) -> tuple[str, ...] | None:
+    """The IDs in roster.csv, in its order; None where there is none.
+
+    The IDs stand in the first column, or in the one headed `id` or `participant`. Raises StudyError
+    for a file that cannot be read, and for an ID that is not one or stands there twice.
+    """
+    path = folder / ROSTER
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        return None
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"the roster cannot be read ({error})", place=str(path)) from error
+    rows = [row for row in csv.reader(text.splitlines()) if any(it.strip() for it in row)]
+    heads = [it.strip().casefold() for it in rows[0]] if rows else []
+    column = next((heads.index(name) for name in ("id", "participant") if name in heads), None)
+    found: list[str] = []
+    for row in rows if column is None else rows[1:]:
+        name = row[column or 0].strip() if len(row) > (column or 0) else ""
+        if name in found:
+            raise StudyError(f"{name} stands there twice", place=str(path), hint="Remove one")
+        found.append(identify(name).participant)
+    return tuple(found)
+
+
+def admit_by_roster(folder: Path, identity: Identity) -> None:
+    """Raise StudyError unless the participant is on the roster, where there is one; pilots need not
+    be."""
+    roster = roster_of(folder) if identity.mode == "live" else None
+    if roster is not None and identity.participant not in roster:
+        raise StudyError(
+            f"{identity.participant} is not on the roster of this study",
+            place=str(folder / ROSTER),
+            hint=did_you_mean(identity.participant, roster) or "Add the ID to the roster",
+        )
+
+
+def refuse_other_accounts(folder: Path, command: str) -> None:
+    """Raise StudyError where another account than the folder's owner runs a command, root included:
+    files that it made could not be read by the owner afterwards."""
+    try:
+        owner = folder.stat().st_uid
+    except OSError:
+        return
+    if owner == os.geteuid():
+        return
+    try:
+        name = pwd.getpwuid(owner).pw_name
+    except KeyError:
+        name = str(owner)
+    raise StudyError(
+        f"this study belongs to the account {name}",
+        place=str(folder),
+        hint=f"Run it as that account: sudo -u {name} {command}",
+    )
 
 
 def identify(participant: str, *, pilot: bool = False) -> Identity:
@@ -139,31 +238,56 @@ def open_study(folder: Path) -> Study:
     settings, digest = read_settings(path)
     entries = Ledger(folder / LEDGER).entries()
     _same_as_created(settings, entries, path)
+    texts, items = read_texts(folder / TEXTS), read_items(folder / ITEMS)
+    first, second = (_building(folder, name) for name in settings.buildings)
+    practice = _building(folder, settings.practice_building)
     study = Study(
         folder=folder,
         settings=settings,
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
-        texts=read_texts(folder / TEXTS),
-        items=read_items(folder / ITEMS),
-        buildings=(
-            _building(folder, settings.buildings[0]),
-            _building(folder, settings.buildings[1]),
-        ),
-        practice=_building(folder, settings.practice_building),
+        texts=texts,
+        items=items,
+        buildings=(first, second),
+        practice=practice,
+        inputs={
+            SETTINGS: digest,
+            TEXTS: _digest(folder / TEXTS),
+            ITEMS: _digest(folder / ITEMS),
+            **{name_of(building): building.hash for building in (first, second, practice)},
+        },
     )
     for building in (*study.buildings, study.practice):
         _check_map(building, settings.screen)
     return study
 
 
-def amend(folder: Path, why: str) -> None:
-    """Record that study.toml was changed on purpose. Raises StudyError if it was not changed."""
+def amend(folder: Path, why: str) -> tuple[str, ...]:
+    """Record that settings, texts, items or buildings were changed on purpose; returns which.
+
+    Raises StudyError if none has changed.
+    """
     study = open_study(folder)
-    if agreed_hash(study.ledger.entries()) == study.copy.sha256:
+    changed = study.ledger.amend(study.inputs, why)
+    if not changed:
         raise StudyError(
-            "study.toml has not changed, so there is nothing to record", place=str(folder)
+            "nothing has changed that a session is made from, so there is nothing to record",
+            place=str(folder),
         )
-    study.ledger.amend(study.copy.sha256, why)
+    study.keep_copies()
+    return changed
+
+
+def name_of(building: Building) -> str:
+    """The name of a building among the inputs."""
+    return f"building {building.name}"
+
+
+def _ending(name: str) -> str:
+    return Path(name).suffix or ".txt"
+
+
+def _digest(path: Path) -> str:
+    return sha256(path.read_bytes()).hexdigest()
 
 
 def amendment(study: Study) -> str:

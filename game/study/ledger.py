@@ -10,7 +10,7 @@ from __future__ import annotations
 import errno
 import fcntl
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -44,6 +44,8 @@ class LedgerLine(msgspec.Struct, frozen=True, kw_only=True, tag_field="type"):
 
 
 class StudyCreated(LedgerLine, frozen=True, tag="study_created"):
+    """`settings_hash` is that of study.toml; ledgers of earlier releases know no other input."""
+
     seed: int
     blocks: int
     settings_hash: str
@@ -75,10 +77,13 @@ class CameBack(LedgerLine, frozen=True, tag="came_back"):
 
 
 class SettingsAmended(LedgerLine, frozen=True, tag="settings_amended"):
-    """study.toml was changed after the first session, on purpose."""
+    """What sessions are made from, from now on: the SHA-256 of study.toml, texts.toml, items.toml
+    and every building by name, and which of them `changed`."""
 
     settings_hash: str
     why: str
+    inputs: dict[str, str] = {}
+    changed: tuple[str, ...] = ()
 
 
 class Unblinded(LedgerLine, frozen=True, tag="unblinded"):
@@ -179,27 +184,33 @@ class Ledger:
                 )
             write(CameBack(participant=participant, mode=mode))
 
-    def agree(self, settings_hash: str) -> None:
-        """Make sure that the study runs with the settings that have this hash.
+    def agree(self, inputs: Mapping[str, str]) -> None:
+        """Make sure that the study is made from these inputs: SHA-256 by name.
 
         Until the first live slot is taken they may change freely; the change is recorded. Raises
-        LedgerError if they changed later without an amendment.
+        LedgerError, naming what changed later without an amendment.
         """
         with self._locked() as write:
             entries = self.entries()
-            if agreed_hash(entries) == settings_hash:
-                return
-            if any(isinstance(entry, SlotTaken) and entry.mode == "live" for entry in entries):
+            agreed = agreed_inputs(entries)
+            changed = differing(agreed, inputs)
+            if changed and any(isinstance(it, SlotTaken) and it.mode == "live" for it in entries):
                 raise LedgerError(
-                    "study.toml was changed after the first participant was allocated",
+                    f"{', '.join(changed)} changed after the first participant was allocated",
                     place=str(self.path.parent),
                     hint="Undo the change, or record it: ana study amend DIR --why TEXT",
                 )
-            write(SettingsAmended(settings_hash=settings_hash, why="before the first participant"))
+            if changed or agreed.keys() != inputs.keys():
+                why = "before the first participant" if changed else "recorded for the first time"
+                write(_amended(inputs, why, changed))
 
-    def amend(self, settings_hash: str, why: str) -> None:
+    def amend(self, inputs: Mapping[str, str], why: str) -> tuple[str, ...]:
+        """Record that the inputs were changed on purpose; returns which were."""
         with self._locked() as write:
-            write(SettingsAmended(settings_hash=settings_hash, why=why))
+            changed = differing(agreed_inputs(self.entries()), inputs)
+            if changed:
+                write(_amended(inputs, why, changed))
+            return changed
 
     def unblind(self, why: str) -> bool:
         """Record that the allocation was looked at; False where the study is closed."""
@@ -302,10 +313,27 @@ def agreement(entries: Sequence[LedgerEntry]) -> StudyCreated | SettingsAmended 
     return None
 
 
-def agreed_hash(entries: Sequence[LedgerEntry]) -> str:
-    """The hash of the settings that the study runs with; empty if there is no ledger yet."""
+def agreed_inputs(entries: Sequence[LedgerEntry]) -> dict[str, str]:
+    """The inputs that the study runs with, SHA-256 by name; of a ledger that an earlier release
+    wrote, study.toml alone, and none if there is no ledger yet."""
     agreed = agreement(entries)
-    return "" if agreed is None else agreed.settings_hash
+    if agreed is None:
+        return {}
+    known = agreed.inputs if isinstance(agreed, SettingsAmended) else {}
+    return known or {"study.toml": agreed.settings_hash}
+
+
+def differing(agreed: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
+    """The names of inputs that are not what was agreed on. Of an earlier release's ledger only
+    study.toml is compared."""
+    names = now.keys() | agreed.keys() if len(agreed) > 1 else agreed.keys()
+    return tuple(sorted(name for name in names if agreed.get(name) != now.get(name)))
+
+
+def _amended(inputs: Mapping[str, str], why: str, changed: tuple[str, ...]) -> SettingsAmended:
+    return SettingsAmended(
+        settings_hash=inputs["study.toml"], why=why, inputs=dict(inputs), changed=changed
+    )
 
 
 def is_closed(entries: Sequence[LedgerEntry]) -> bool:

@@ -221,10 +221,20 @@ class ItemRow(TableRow, frozen=True):
     adaptivity: Annotated[InstructorKind | None, col("The instructor of the round.")]
     item: _Item
     text: _Text
+    anchors: Annotated[
+        str, col("The ends of the slider, or the answers to choose from, parted by bars.")
+    ]
     place: Annotated[int, col("The question's place in the order shown, from 0.")]
     value: Annotated[int, col("The answer.")]
     response_ms: _ResponseMs
     changes: _Changes
+    version: Annotated[
+        str,
+        col(
+            "Names the settings, texts, items and buildings by which it was asked; empty in "
+            "sessions of earlier releases."
+        ),
+    ]
 
 
 class LabelRow(TableRow, frozen=True):

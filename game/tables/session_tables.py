@@ -326,7 +326,13 @@ class _Session:
     def items(self) -> Iterator[ItemRow]:
         for (step, _), answer in self.history.items.items():
             instructor = self.adaptivity(step.round) if step.round else None
-            yield ItemRow.of(answer, **step._asdict(), **self.person, adaptivity=instructor)
+            yield ItemRow.of(
+                answer,
+                **step._asdict(),
+                **self.person,
+                adaptivity=instructor,
+                anchors=" | ".join(answer.anchors),
+            )
 
     def labels(self) -> Iterator[LabelRow]:
         for (round_, _), (answer, changes) in self.history.labels.items():

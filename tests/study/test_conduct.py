@@ -382,7 +382,7 @@ def test_a_changed_study_is_refused_until_it_is_amended(copy: Study) -> None:
     changed = open_study(copy.folder)
     with pytest.raises(Exception, match="ana study amend"):
         take_part(changed)
-    ledger.amend(changed.copy.sha256, "more time was needed")
+    ledger.amend(changed.inputs, "more time was needed")
     journal = copy.home(P01) / "journal.jsonl"
     lines = journal.read_bytes().splitlines(keepends=True)
     journal.write_bytes(b"".join(lines[:-1]))

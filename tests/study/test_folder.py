@@ -18,7 +18,7 @@ from game.study.folder import (
     open_study,
 )
 from game.study.lab.leaving import withdraw
-from game.study.ledger import LedgerError, SettingsAmended, ending_of, slot_of
+from game.study.ledger import LedgerError, SettingsAmended, agreed_inputs, ending_of, slot_of
 from game.study.lock import SessionBusy, SessionLock
 from game.study.study_settings import SettingsError
 from tests.study.people import P01, journal_of, small_study, take_part
@@ -66,7 +66,9 @@ def test_pseudonyms(name: str) -> None:
     assert identify(name, pilot=True).mode == "pilot"
 
 
-@pytest.mark.parametrize("name", ["", "x" * 33, "a@b.org", "Ann Lee", "../x", "a/b", ".", "é"])
+@pytest.mark.parametrize(
+    "name", ["", "x" * 33, "a@b.org", "Ann Lee", "../x", "a/b", ".", "é", "-rf", "--help", "_a"]
+)
 def test_not_pseudonyms(name: str) -> None:
     with pytest.raises(StudyError, match="pseudonym"):
         identify(name)
@@ -84,29 +86,68 @@ def test_what_decides_the_allocation_never_changes(study: Study, before: str, af
 def test_settings_change_freely_until_the_first_allocation(study: Study) -> None:
     edit(study, "label_seconds = 6", "label_seconds = 7")
     changed = open_study(study.folder)
-    changed.ledger.agree(changed.copy.sha256)
+    changed.ledger.agree(changed.inputs)
     (amended,) = (e for e in changed.ledger.entries() if isinstance(e, SettingsAmended))
     assert amended.settings_hash == changed.copy.sha256
-    changed.ledger.agree(changed.copy.sha256)
+    changed.ledger.agree(changed.inputs)
     assert sum(isinstance(e, SettingsAmended) for e in changed.ledger.entries()) == 1
 
 
 def test_afterwards_a_change_needs_an_amendment(study: Study) -> None:
-    study.ledger.agree(study.copy.sha256)
+    study.ledger.agree(study.inputs)
     study.ledger.allocate("P02", "live")
     edit(study, "label_seconds = 6", "label_seconds = 7")
     changed = open_study(study.folder)
     with pytest.raises(LedgerError, match="ana study amend"):
-        changed.ledger.agree(changed.copy.sha256)
+        changed.ledger.agree(changed.inputs)
     amend(study.folder, "a mistake")
-    changed.ledger.agree(changed.copy.sha256)
-    with pytest.raises(LedgerError, match="was changed"):
-        study.ledger.agree(study.copy.sha256)
+    changed.ledger.agree(changed.inputs)
+    with pytest.raises(LedgerError, match=r"study\.toml changed"):
+        study.ledger.agree(study.inputs)
+
+
+@pytest.mark.parametrize("name", ["texts.toml", "items.toml", "mine.txt"])
+def test_texts_items_and_buildings_are_frozen_too(study: Study, name: str) -> None:
+    text = study.buildings[0].text.replace("Foundry Court", "My Own House")
+    (study.folder / "mine.txt").write_text(text)
+    edit(study, '"foundry"', '"mine.txt"')
+    study = open_study(study.folder)
+    study.freeze()
+    study.ledger.allocate("P02", "live")
+    kept = {path.name for path in (study.folder / "versions").iterdir()}
+    assert len(kept) == len(study.inputs) == 6
+    path = study.folder / name
+    changed = path.read_text()
+    before, after = {
+        "texts.toml": ("Thank you", "Thanks"),
+        "items.toml": ("engagement", "engagement_2"),
+        "mine.txt": ("facing north", "facing south"),
+    }[name]
+    path.write_text(changed.replace(before, after, 1))
+    later = open_study(study.folder)
+    assert later.version != study.version
+    named = name if name != "mine.txt" else "building My Own House"
+    with pytest.raises(LedgerError, match=f"{named} changed after"):
+        later.freeze()
+    assert amend(study.folder, "a slip") == (named,)
+    later.freeze()
+    now = {path.name for path in (study.folder / "versions").iterdir()}
+    assert kept < now
+    assert len(now) == len(kept) + 1
+
+
+def test_a_ledger_of_the_first_release_is_agreed_with(tmp_path: Path) -> None:
+    new_study(tmp_path / "plain")
+    study = open_study(tmp_path / "plain")
+    study.ledger.allocate("P02", "live")
+    assert set(agreed_inputs(study.ledger.entries())) == {"study.toml"}
+    study.ledger.agree(study.inputs)
+    assert agreed_inputs(study.ledger.entries()) == dict(study.inputs)
 
 
 def test_nothing_is_amended_that_was_not_changed(study: Study) -> None:
-    study.ledger.agree(study.copy.sha256)
-    with pytest.raises(StudyError, match="has not changed"):
+    study.ledger.agree(study.inputs)
+    with pytest.raises(StudyError, match="nothing has changed"):
         amend(study.folder, "no reason")
 
 

@@ -20,7 +20,7 @@ P05 = Identity("live", "P05")
 
 def fill(study: Study) -> None:
     """Let others take all places."""
-    study.ledger.agree(study.copy.sha256)
+    study.ledger.agree(study.inputs)
     for number in range(study.settings.blocks * BLOCK):
         study.ledger.allocate(f"Q{number}", "live")
 
@@ -35,7 +35,7 @@ def test_a_newcomer_without_a_place_is_told_at_login_and_nothing_is_recorded(
     tmp_path: Path, end: Callable[[Study], None]
 ) -> None:
     study = small_study(tmp_path / "study")
-    study.ledger.agree(study.copy.sha256)
+    study.ledger.agree(study.inputs)
     end(study)
     before = study.ledger.path.read_bytes()
     asked: list[str] = []

@@ -44,7 +44,7 @@ def at_login(study: Study, columns: int = 120, rows: int = 40) -> Terminal:
 @pytest.fixture
 def study(tmp_path: Path) -> Study:
     study = small_study(tmp_path / "study")
-    study.ledger.agree(study.copy.sha256)
+    study.ledger.agree(study.inputs)
     return study
 
 
@@ -130,7 +130,7 @@ def test_problems_are_shown_without_paths(study: Study) -> None:
     path = study.folder / "study.toml"
     path.write_text(path.read_text().replace("label_seconds = 6", "label_seconds = 7"))
     with at_login(study) as terminal:
-        shown = terminal.wait_for("was changed")
+        shown = terminal.wait_for("changed after")
         terminal.read_for(PageScreen.DEAF_S)
         terminal.press("enter")
         assert terminal.wait() == 2

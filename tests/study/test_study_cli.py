@@ -46,7 +46,7 @@ def test_a_change_is_amended(copy: Study, capsys: pytest.CaptureFixture[str]) ->
     path.write_text(path.read_text().replace("label_seconds = 6", "label_seconds = 8"))
     assert main(["study", "amend", str(copy.folder), "--why", "too short"]) == 0
     assert main(["study", "amend", str(copy.folder), "--why", "too short"]) == 2
-    assert "has not changed" in capsys.readouterr().err
+    assert "nothing has changed" in capsys.readouterr().err
 
 
 def test_withdrawal(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:

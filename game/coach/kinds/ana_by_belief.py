@@ -46,7 +46,7 @@ class BeliefThresholds:
             return state
         chance = known.by_room[room.name]
         if point.occasion == "goal":
-            chance = hopeful(chance, known.share_sd, self.assumed.optimism)
+            chance = hopeful(chance, known.share_sd, self.assumed.belief_optimism)
         said = verdict(chance, *thresholds(self.preset, state.preference))
         kept = opposite(point.occasion, state.level, _LEVELS[said])
         return state if kept else replace(state, level=_LEVELS[said])

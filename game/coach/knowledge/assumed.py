@@ -38,7 +38,7 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     """No walk says more than this about a room, in log odds: the model of walks is too simple."""
     retention: float = 0.75
     """Chance that a name that came into view is remembered with its place (judgement)."""
-    searching_pace: float = 1.5
+    searching_pace: float = 1.35
     """How many times longer a step takes somebody who looks for the way (chosen)."""
     pace_sd: float = 0.25
     """Standard deviation of the logarithm of a step's time about that (chosen)."""
@@ -62,9 +62,6 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     """From a change on the bar until reading begins (Hick, 1952: a choice of one in four keys)."""
     word_ms: float = 190.0
     """Silent reading at 252 ms a word (Brysbaert, 2019), faster for stock phrases."""
-    recall_ms: float = 900.0
-    """To call the place of a room to mind, once its name has been read (judgement; the mental
-    operator of the keystroke-level model is 1.35 s)."""
     step_ms: float = 215.0
     """A step before any has been timed: the mission's pace and a little."""
     turn_ms: float = 90.0
@@ -99,19 +96,22 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     factor_noise: float = 0.18
     """Logarithm of how much longer a leg at C1, C2, C3 takes than is said above: C2 takes longer
     from the start, for counting and looking; spread between people, and of one leg."""
-    search_ms: float = 5_500.0
+    search_ms: float = 7_500.0
     search_sd: float = 3_000.0
     search_noise: float = 3_500.0
     """By how much finding a room that is not known takes longer than walking to one that is: mean
-    and spread between people, and the spread of one search (fitted to simulated people)."""
+    and spread between people, and the spread of one search (chosen; 5,500 was fitted to people who
+    recalled while they read)."""
 
     # --- choosing --------------------------------------------------------------------------------
 
     first_level: Level = Level.C3
     """Only C3 tells anything about knowledge; the first choice may still be another."""
-    optimism: float = 1.2
+    optimism: float = 0.6
     """How many standard deviations of the share are added to P known when a goal is chosen for: the
-    value of learning what the person knows (chosen; enough for `belief` to begin at C3)."""
+    value of learning what the person knows (chosen)."""
+    belief_optimism: float = 1.2
+    """The same for the preset `belief`: just enough for the first goal to be told at C3."""
     switch_gain_ms: float = 1_000.0
     """Another level must save so much: switching costs attention (chosen: fewer switches, no fewer
     rescues)."""

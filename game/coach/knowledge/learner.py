@@ -190,8 +190,7 @@ class KnowledgeLearner:
             words = first_words(
                 shown.instruction, shown.notice, turns_need_a_key=self._turns_need_a_key
             )
-            recalls = shown.instruction.tuples[0][0] == "Goto"
-            self.habits.answered(ms, self.times.usual_reading(words, recalls=recalls))
+            self.habits.answered(ms, self.times.usual_reading(words))
 
     def _moved(self, event: Acted, position: Cell) -> None:
         """A step; one with the same key as the step before tells the pace."""

@@ -152,7 +152,7 @@ class LegTimes:
         """The same without the factor of the level."""
         room = scene.room(goal)
         inside = room is not None and scene.building.room_at(pose.cell) is room
-        reading = self.reading(4) if inside else self.reading(5, recalls=True)
+        reading = self.reading(4 if inside else 5)
         return self.walk(scene, pose, goal) + reading + self._assumed.look_ms
 
     def walk(self, scene: Scene, pose: Pose, goal: str) -> float:
@@ -160,14 +160,13 @@ class LegTimes:
         distance = scene.floodfills.distance(pose.cell, scene.victim(goal).cell)
         return max(0, distance - 1) * self._habits.step_ms * self._assumed.detour
 
-    def reading(self, words: int, *, recalls: bool = False) -> float:
-        """To read so many words, and to call a place to mind where they name one."""
-        return self._habits.slowness * self.usual_reading(words, recalls=recalls)
+    def reading(self, words: int) -> float:
+        """To read so many words."""
+        return self._habits.slowness * self.usual_reading(words)
 
-    def usual_reading(self, words: int, *, recalls: bool = False) -> float:
+    def usual_reading(self, words: int) -> float:
         """The same at usual slowness."""
-        assumed = self._assumed
-        return assumed.react_ms + assumed.word_ms * words + assumed.recall_ms * recalls
+        return self._assumed.react_ms + self._assumed.word_ms * words
 
     def _carried_out(self, part: _Part, unknowing: float) -> float:
         """To read and carry out an instruction: the next sentence is read while walking."""

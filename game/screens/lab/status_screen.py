@@ -18,7 +18,7 @@ from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.signals import lead_out
 from game.screens.widgets.theme import THEMES, theme_name
 from game.study.lab.attendance import SessionStatus
-from game.study.lab.status_text import HEADER, session_cells, study_line, totals_line
+from game.study.lab.status_text import HEADER, HINDRANCES, session_cells, study_line, totals_line
 from game.study.lab.study_status import StatusReader, StudyStatus
 
 EVERY_S = 1.0
@@ -40,6 +40,9 @@ def status_rows(status: StudyStatus) -> list[Row]:
         ((f" {totals_line(status.totals)}", "quiet"),),
         BLANK,
     ]
+    if status.hindrances:
+        rows += [((f" {line}", "trouble"),) for line in (HINDRANCES, *status.hindrances)]
+        rows.append(BLANK)
     if not status.sessions:
         rows.append(((" Nobody has started yet.", "quiet"),))
         return rows
@@ -53,6 +56,8 @@ def status_rows(status: StudyStatus) -> list[Row]:
     if status.problems:
         rows += [BLANK, ((" Look at:", "title"),)]
         rows += [((f"  {problem}", "trouble"),) for problem in status.problems]
+    if status.not_come:
+        rows += [BLANK, ((f" Not begun: {', '.join(status.not_come)}", "quiet"),)]
     return rows
 
 

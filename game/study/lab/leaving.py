@@ -64,8 +64,7 @@ def recorded(study: Study, identity: Identity) -> Recorded:
         raise StudyError(
             f"there is no participant {participant} among the {mode} ones of this study",
             place=str(study.folder),
-            hint=did_you_mean(participant, there)
-            or "`ana study status` lists who there is",
+            hint=did_you_mean(participant, there) or "`ana study status` lists who there is",
         )
     path = home / JOURNAL
     if not path.is_file():

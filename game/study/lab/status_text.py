@@ -9,6 +9,9 @@ from game.study.lab.study_status import CellCount, StudyStatus, Totals
 
 HEADER = ("participant", "mode", "state", "phase", "clock", "last event", "interrupted", "resumed")
 
+HINDRANCES = "Something is wrong:"
+"""Above what keeps people from logging in."""
+
 _COUNTS = Totals.__struct_fields__[2:]
 _RARE = ("turned_away",)
 """Counts that are shown only if they are not 0."""
@@ -47,6 +50,10 @@ def session_cells(session: SessionStatus) -> tuple[str, ...]:
 def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
     """The lines of a plain report."""
     yield study_line(status)
+    if status.hindrances:
+        yield HINDRANCES
+        yield from (f"  {hindrance}" for hindrance in status.hindrances)
+        yield ""
     yield f"Live sessions: {totals_line(status.totals)}"
     if status.sessions:
         yield ""
@@ -55,6 +62,9 @@ def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
         yield ""
         yield "Problems:"
         yield from (f"  {problem}" for problem in status.problems)
+    if status.not_come:
+        yield ""
+        yield f"On the roster, not begun ({len(status.not_come)}): {', '.join(status.not_come)}"
     if cells:
         rules = list(cells[0].excluded)
         yield ""

@@ -15,6 +15,7 @@ import msgspec
 from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS
 from game.study.lab.attendance import Attendance, SessionStatus
+from game.study.lab.hindrances import Hindrances, not_come
 from game.study.lab.sessions import sessions_of
 from game.study.ledger import (
     Ledger,
@@ -49,14 +50,17 @@ class Totals(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class StudyStatus(msgspec.Struct, frozen=True, kw_only=True):
-    """A study at one moment."""
+    """A study at one moment. `hindrances` are wrong with the study as a whole, `problems` with
+    single sessions; `not_come` are those on the roster who have not begun."""
 
     study: str
     closed: bool
     unblinded: int
     totals: Totals
     sessions: tuple[SessionStatus, ...]
+    hindrances: tuple[str, ...]
     problems: tuple[str, ...]
+    not_come: tuple[str, ...] = ()
 
 
 class CellCount(msgspec.Struct, frozen=True, kw_only=True):
@@ -75,6 +79,7 @@ class StatusReader:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._attendance = Attendance(folder)
+        self._hindrances = Hindrances(folder)
 
     def look(self) -> StudyStatus:
         """The study now. Raises SettingsError or LedgerError if the folder is not a study."""
@@ -87,6 +92,8 @@ class StatusReader:
             unblinded=sum(isinstance(entry, Unblinded) for entry in entries),
             totals=_totals(settings, entries, sessions),
             sessions=sessions,
+            hindrances=self._hindrances.look(entries),
+            not_come=not_come(self.folder, entries),
             problems=tuple(
                 f"{session.participant} ({session.mode}): {problem}"
                 for session in sessions

@@ -303,12 +303,19 @@ async def _preference(session: StudySession, who: Participant, step: Step, _seen
                 options=options,
                 preferred_round=preferred,
                 response_ms=session.now_ms() - shown_ms,
+                version=session.study.version,
             )
         )
     page, shown_ms = texts.reason, session.now_ms()
     answer = await who.explain(page)
     await session.save(
-        FreeText("reason", page.body.strip(), answer, session.now_ms() - shown_ms),
+        FreeText(
+            "reason",
+            page.body.strip(),
+            answer,
+            session.now_ms() - shown_ms,
+            version=session.study.version,
+        ),
         PhaseEnded("completed", 0),
     )
 

@@ -32,8 +32,8 @@ from game.journal.records import (
 from game.journal.sink import FileSink, Sink
 from game.journal.writer import Journal, versions
 from game.study.chance import digest, number
-from game.study.folder import Identity, Study, StudyError, amendment
-from game.study.ledger import ending_of
+from game.study.folder import Identity, Study, StudyError, admit_by_roster, amendment
+from game.study.ledger import differing, ending_of
 
 CODE_LETTERS = "ABCDEFGHJKMNPQRTUVWXYZ2346789"
 """Letters and digits that are not easily confused."""
@@ -127,7 +127,7 @@ class StudySession:
         study, (mode, participant) = self.study, self.identity
 
         def take() -> Allocated:
-            study.ledger.agree(study.copy.sha256)
+            study.freeze()
             settings = study.settings
             taken = study.ledger.allocate(participant, mode, refill=settings.refill_dropouts)
             cell = taken.cell
@@ -202,8 +202,11 @@ def open_session(
     session = StudySession(study, identity, journal, clock, started, keep, before)
     if silent_ms is not None:
         session.record(TakenOver(silent_ms))
-    if _study_hash(before) != study.copy.sha256:
-        session.record(StudyAmended(study.copy, amendment(study)))
+    changed = differing(_inputs_before(before), study.inputs)
+    if changed:
+        session.record(
+            StudyAmended(study.copy, amendment(study), inputs=dict(study.inputs), changed=changed)
+        )
     return session
 
 
@@ -216,7 +219,8 @@ def see_place(study: Study, identity: Identity) -> None:
 def _admit(study: Study, identity: Identity) -> None:
     """Check that the ledger lets this participant take part, and let a drop-out come back."""
     participant, mode = identity.participant, identity.mode
-    study.ledger.agree(study.copy.sha256)
+    admit_by_roster(study.folder, identity)
+    study.freeze()
     ending = ending_of(study.ledger.entries(), participant, mode)
     if ending == "dropped":
         study.ledger.come_back(participant, mode)
@@ -242,6 +246,7 @@ def _opening(
         seed=session_seed(study, identity),
         terminal=terminal,
         study=study.copy,
+        inputs=dict(study.inputs),
     )
 
 
@@ -250,12 +255,10 @@ def session_seed(study: Study, identity: Identity) -> int:
     return number(study.settings.seed, identity.mode, identity.participant, "session")
 
 
-def _study_hash(before: Sequence[Entry]) -> str:
-    """The hash of the settings that the session last ran with."""
-    copies = [
-        entry.record.study
-        for entry in before
-        if isinstance(entry.record, SessionStarted | StudyAmended)
-    ]
-    last = copies[-1]
-    return last.sha256 if last is not None else ""
+def _inputs_before(before: Sequence[Entry]) -> dict[str, str]:
+    """The inputs that the session was last made from; of an earlier release, study.toml alone."""
+    *_, last = (
+        entry.record for entry in before if isinstance(entry.record, SessionStarted | StudyAmended)
+    )
+    copy = last.study
+    return last.inputs or ({} if copy is None else {"study.toml": copy.sha256})

@@ -101,11 +101,13 @@ class Labelling:
         now_ms = self._session.now_ms()
         response_ms = now_ms - self._shown_ms.get(room.name, now_ms)
         answers = [
-            QuizAnswer(other, None, correct=False, response_ms=response_ms)
+            QuizAnswer(other, None, False, response_ms, self._session.study.version)
             for other, given in self.given.items()
             if given == name and other != room.name
         ]
-        answers.append(QuizAnswer(room.name, name, name == room.name, response_ms))
+        answers.append(
+            QuizAnswer(room.name, name, name == room.name, response_ms, self._session.study.version)
+        )
         await self._session.save(*answers)
 
 
@@ -161,6 +163,7 @@ class Sheet:
                 value=value,
                 response_ms=self._session.now_ms() - self._shown_ms,
                 changes=0 if before is None else before.changes + 1,
+                version=self._session.study.version,
             )
         )
 
