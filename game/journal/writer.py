@@ -189,11 +189,21 @@ class Journal:
             try:
                 while self._waiting:
                     records = self._waiting[0]
-                    self.sink.write(self._lines(records))
+                    self.sink.write(self._encoded(records))
                     self.awaits_disk |= not LASTING.isdisjoint(map(type, records))
                     self._waiting.popleft()
             finally:
                 self._writing.release()
+
+    def _encoded(self, records: Sequence[Record]) -> bytes:
+        """The lines of the queue's first records, which leave it if they cannot be written down."""
+        seq = self._seq
+        try:
+            return self._lines(records)
+        except Exception:
+            self._seq = seq
+            self._waiting.popleft()
+            raise
 
     def _lines(self, records: Sequence[Record]) -> bytes:
         now = self._clock.read()
