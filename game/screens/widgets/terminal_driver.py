@@ -6,6 +6,8 @@ from __future__ import annotations
 import os
 import selectors
 import signal
+import sys
+from contextlib import suppress
 from time import monotonic
 
 from textual.drivers.linux_driver import LinuxDriver
@@ -24,12 +26,20 @@ class TerminalDriver(LinuxDriver):
     terminal is sent UTF-8."""
 
     def start_application_mode(self) -> None:
-        reconfigure = getattr(self._file, "reconfigure", None)
-        if reconfigure is not None:
-            reconfigure(encoding="utf-8", errors="replace")
-        super().start_application_mode()  # type: ignore[no-untyped-call]
-        self.write(WHEEL_IS_NO_KEY)
-        self.flush()
+        assert sys.__stderr__ is not None
+        output = sys.__stderr__.fileno()
+        self._file = open(  # noqa: SIM115
+            output, "w", encoding="utf-8", errors="replace", closefd=False
+        )
+        try:
+            super().start_application_mode()  # type: ignore[no-untyped-call]
+            self.write(WHEEL_IS_NO_KEY)
+            self.flush()
+        except Exception:
+            with suppress(Exception):
+                self.stop_application_mode()
+                self.close()
+            raise
 
     def stop_application_mode(self) -> None:
         self.write(WHEEL_AS_BEFORE)
