@@ -12,6 +12,7 @@ import time
 from collections import Counter
 from contextlib import suppress
 from fcntl import ioctl
+from inspect import CO_GENERATOR
 from pathlib import Path
 from random import Random
 from termios import TIOCSWINSZ
@@ -26,8 +27,8 @@ HOME = str(Path(game.__file__).parent)
 COUNTED = ("/screens/", "/study/", "/journal/", "/session/")
 """Where faults are raised: not in what is called a thousand times a second, and is called by this.
 """
-SPARED = ("/program.py", "/fault.py")
-"""What handles faults."""
+SPARED = ("/program.py", "/fault.py", "/sink.py")
+"""What handles faults, and what writes down that there was one."""
 OFTEN = 4
 """How many calls of one function count."""
 KEYS = (
@@ -65,8 +66,8 @@ def fail_after(calls: int, tell: int) -> None:
     def watch(frame: FrameType, event: str, _: Any) -> None:
         nonlocal left
         path = frame.f_code.co_filename
-        if event != "call" or not path.startswith(HOME):
-            return
+        if event != "call" or not path.startswith(HOME) or frame.f_code.co_flags & CO_GENERATOR:
+            return  # a generator may be called by its own end, where nothing can be raised
         if path.endswith(SPARED) or not path.removeprefix(HOME).startswith(COUNTED):
             return
         often[frame.f_code] += 1
