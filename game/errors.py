@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from pathlib import Path
+
+STATUS_DEFECT = 1
+"""The exit status when something of ours failed that the user cannot fix."""
+_PACKAGE = Path(__file__).resolve().parent
 
 
 class AnaError(Exception):
@@ -36,3 +41,15 @@ def choose_from(name: str, names: Iterable[str], also: str = "") -> str:
     """The hint for a `name` that is none of `names`: the nearest, then all, then `also`."""
     names = tuple(names)
     return f"{did_you_mean(name, names)} Choose from {', '.join(names)}{also}.".lstrip()
+
+
+def where(error: BaseException) -> str:
+    """Which kind of error it is, and the innermost line of ours that it came from."""
+    from traceback import extract_tb
+
+    ours = [
+        f"{Path(frame.filename).relative_to(_PACKAGE)}:{frame.lineno}"
+        for frame in extract_tb(error.__traceback__)
+        if Path(frame.filename).is_relative_to(_PACKAGE)
+    ]
+    return f"{type(error).__name__} at {ours[-1] if ours else '?'}"

@@ -1,4 +1,4 @@
-"""Where journals of free play are kept."""
+"""Where journals of free play, and reports of what failed, are kept."""
 
 from __future__ import annotations
 
@@ -24,3 +24,8 @@ def sessions_folder(package: Path = PACKAGE) -> Path:
     from platformdirs import user_data_path
 
     return user_data_path("ana", appauthor=False) / "sessions"
+
+
+def reports_folder(package: Path = PACKAGE) -> Path:
+    """The folder for reports of what failed, beside that for journals."""
+    return sessions_folder(package).with_name("reports")

@@ -6,7 +6,6 @@ import getpass
 import os
 import signal
 import sys
-import syslog
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,12 +13,12 @@ from typing import TYPE_CHECKING
 import click
 import msgspec
 
-from game.errors import AnaError
+from game.errors import STATUS_DEFECT, AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 from game.lazy import LazyGroup
 
 if TYPE_CHECKING:
-    from game.study.texts import Login
+    from game.study.texts import Login, Texts
 
 FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
 
@@ -39,6 +38,7 @@ _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 _STATUS_TROUBLE = 2
 STATUS_WRONG = 1
+_NOTHING_WORKS = "The study cannot continue here. Please tell the experimenter."
 _UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
 
 
@@ -71,11 +71,16 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
     """Let participant ID take part at this terminal, or resume an earlier session."""
     for number in FROM_THE_KEYBOARD:
         signal.signal(number, signal.SIG_IGN)
-    from game.screens.study.app import run_session
-    from game.study.folder import identify, open_study
+    try:
+        from game.screens.study.app import run_session
+        from game.study.folder import identify, open_study
 
-    identity = identify(participant, pilot=pilot)
-    return run_session(open_study(folder), identity)
+        identity = identify(participant, pilot=pilot)
+        return run_session(open_study(folder), identity)
+    except AnaError:
+        raise
+    except Exception as error:
+        return _cannot_go_on(error)
 
 
 @study_group.command("status", short_help="Show where everyone is, and problems.")
@@ -281,12 +286,13 @@ def let_in(folder: Path, *, pilot: bool) -> int:
         )
     for number in (signal.SIGQUIT, signal.SIGTSTP):
         signal.signal(number, signal.SIG_IGN)
-    from game.study.folder import identify, open_study
-    from game.study.lab.sshd import who_logs_in
-    from game.study.texts import filled, shipped_texts
-
-    texts = shipped_texts()
+    texts = None
     try:
+        from game.study.folder import identify, open_study
+        from game.study.lab.sshd import who_logs_in
+        from game.study.texts import shipped_texts
+
+        texts = shipped_texts()
         study = open_study(folder)
         texts = study.texts
         participant = who_logs_in(os.environ, partial(_ask_for_id, texts.login))
@@ -295,11 +301,27 @@ def let_in(folder: Path, *, pilot: bool) -> int:
 
         return run_session(study, identify(participant, pilot=pilot))
     except AnaError as error:
-        syslog.openlog("ana")
-        syslog.syslog(syslog.LOG_ERR, str(error))
-        page = filled(texts.words.trouble, problem=error.message)
-        click.echo(f"\n{page.title}\n\n{page.body.strip()}\n", err=True)
+        from game.screens.study.fault import log_to_system, tell_plainly
+        from game.study.texts import filled, shipped_texts
+
+        log_to_system(str(error))
+        words = (texts or shipped_texts()).words
+        tell_plainly(filled(words.trouble, problem=error.message))
         return _STATUS_TROUBLE
+    except Exception as error:
+        return _cannot_go_on(error, texts)
+
+
+def _cannot_go_on(error: Exception, texts: Texts | None = None) -> int:
+    """Show the participant that something failed which nobody expected; the exit status."""
+    try:
+        from game.screens.study.fault import cannot_go_on
+        from game.study.texts import shipped_texts
+
+        return cannot_go_on(error, texts or shipped_texts())
+    except Exception:
+        click.echo(f"\n{_NOTHING_WORKS}\n", err=True)
+        return STATUS_DEFECT
 
 
 def _ask_for_id(words: Login, refused: str) -> str:

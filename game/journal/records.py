@@ -181,11 +181,13 @@ class Interruption(SessionRecord, frozen=True, tag="interruption"):
 
     `jump_ms` is how long the machine slept (`suspended`) or by how much the wall clock was set
     (`clock_step`); neither affects steady time. `signal` is the name of the signal received.
+    `error` is the kind of error that ended the program (`defect`), and the line it came from.
     """
 
-    kind: Literal["signal", "hang_up", "suspended", "clock_step"]
+    kind: Literal["signal", "hang_up", "suspended", "clock_step", "defect"]
     signal: str = ""
     jump_ms: int = 0
+    error: str = ""
 
 
 class SessionEnded(SessionRecord, frozen=True, tag="session_ended"):

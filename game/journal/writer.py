@@ -17,6 +17,7 @@ import msgspec
 
 from game import __version__
 from game.journal.clock import Clock, Reading, SystemClock
+from game.journal.journal_error import JournalError
 from game.journal.reader import parse_journal
 from game.journal.records import (
     SCHEMA_VERSION,
@@ -189,11 +190,24 @@ class Journal:
             try:
                 while self._waiting:
                     records = self._waiting[0]
-                    self.sink.write(self._lines(records))
+                    self._write(records)
                     self.awaits_disk |= not LASTING.isdisjoint(map(type, records))
                     self._waiting.popleft()
             finally:
                 self._writing.release()
+
+    def _write(self, records: Sequence[Record]) -> None:
+        """Write the first records of the queue. They leave it if they cannot be written down: then
+        it is no fault of the sink's, and what follows must not fail with them."""
+        seq = self._seq
+        try:
+            self.sink.write(self._lines(records))
+        except JournalError:
+            raise
+        except Exception:
+            self._seq = seq
+            self._waiting.popleft()
+            raise
 
     def _lines(self, records: Sequence[Record]) -> bytes:
         now = self._clock.read()

@@ -18,6 +18,11 @@ from game.world.events import LevelWish
 LIKERT_POINTS = 5
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
+LATER_WORDS = (
+    "fault", "decline_title", "decline_text", "more_below", "too_long", "clock_stopped",
+    "mission_goes_on", "leave_now",
+)  # fmt: skip
+"""Small words that they lack."""
 
 
 class TextsError(AnaError):
@@ -136,14 +141,22 @@ class ScreenWords(_Part, frozen=True):
     stop_text: str
     stop_yes: str
     stop_no: str
+    decline_title: str
+    decline_text: str
+    more_below: str
+    too_long: str
     goodbye: Page
     preflight: Page
     too_small: str
+    clock_stopped: str
+    mission_goes_on: str
+    leave_now: str
     size_fine: str
     press_keys: str
     keys_fine: str
     busy: Page
     trouble: Page
+    fault: str
 
 
 class Texts(_Part, frozen=True):
@@ -263,7 +276,8 @@ _Read = TypeVar("_Read", Texts, Items)
 def read_texts(path: Path) -> Texts:
     """Raises TextsError, naming the file and the key."""
     shipped = _shipped_tree()
-    return _read(path, Texts, {name: shipped[name] for name in LATER_TEXTS})
+    words = {name: shipped["words"][name] for name in LATER_WORDS}
+    return _read(path, Texts, {name: shipped[name] for name in LATER_TEXTS}, words)
 
 
 def shipped_texts() -> Texts:
@@ -273,7 +287,7 @@ def shipped_texts() -> Texts:
 
 def read_items(path: Path) -> Items:
     """Raises TextsError, naming the file and the key."""
-    return _read(path, Items, {})
+    return _read(path, Items, {}, {})
 
 
 def _shipped_tree() -> dict[str, Any]:
@@ -281,9 +295,11 @@ def _shipped_tree() -> dict[str, Any]:
     return tomllib.loads(shipped.read_text(encoding="utf-8"))
 
 
-def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any]) -> _Read:
+def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[str, str]) -> _Read:
     try:
         tree = otherwise | tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        if isinstance(tree.get("words"), dict):
+            tree["words"] = words | tree["words"]
         read = msgspec.convert(tree, kind)
     except OSError as error:
         raise TextsError(

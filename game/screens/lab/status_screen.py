@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path, PurePath
 from typing import ClassVar
 
 from textual import events
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 
 from game.errors import AnaError
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
-from game.screens.widgets.theme import THEMES, theme_name
 from game.study.lab.attendance import SessionStatus
 from game.study.lab.status_text import HEADER, HINDRANCES, session_cells, study_line, totals_line
 from game.study.lab.study_status import StatusReader, StudyStatus
@@ -85,25 +84,19 @@ class StatusTable(Canvas):
     """
 
 
-class StatusApp(App[None], inherit_bindings=False):
+class StatusApp(Program, inherit_bindings=False):
     """Follows a study until the experimenter leaves."""
 
     CSS_PATH: ClassVar[list[str | PurePath]] = [
         "../widgets/styles/base.tcss",
         "../widgets/styles/pages.tcss",
     ]
-    ENABLE_COMMAND_PALETTE = False
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("q,Q,escape,ctrl+c,ctrl+q", "quit", id="status.leave"),
     ]
 
     def __init__(self, folder: Path) -> None:
-        theme = theme_name(os.environ)
-        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
-        for known in THEMES:
-            self.register_theme(known)
-        self.theme = theme
-        self.failure: AnaError | None = None
+        super().__init__()
         self._reader = StatusReader(folder)
         self._table = StatusTable()
 
@@ -138,8 +131,4 @@ def watch_status(folder: Path) -> int:
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise AnaError("this is not a terminal", hint="Leave out --watch to print the status once.")
     StatusReader(folder).look()
-    app = StatusApp(folder)
-    app.run(mouse=False)
-    if app.failure is not None:
-        raise app.failure
-    return app.return_code or 0
+    return StatusApp(folder).perform_or_report()

@@ -10,17 +10,19 @@ import asyncio
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, ClassVar
 
 from textual import events
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 from textual.geometry import Size
 from textual.screen import Screen
 from textual.widgets import Static
 
-from game.errors import AnaError
+from game.errors import AnaError, where
+from game.journal.records import Interruption
 from game.places import sessions_folder
 from game.screens.widgets.preferences import (
     Preferences,
@@ -28,8 +30,9 @@ from game.screens.widgets.preferences import (
     preferences_file,
     save_preferences,
 )
+from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
-from game.screens.widgets.theme import THEMES, theme_name
+from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import FREE_PLAY, MissionSettings
@@ -59,7 +62,7 @@ class PlayOptions:
     rescuer: str = "literal"
 
 
-class AnaApp(App[None], inherit_bindings=False):
+class AnaApp(Program, inherit_bindings=False):
     """Every screen in one program; `first` makes the one it begins with."""
 
     CSS_PATH: ClassVar[list[str | PurePath]] = [
@@ -67,7 +70,6 @@ class AnaApp(App[None], inherit_bindings=False):
         "../widgets/styles/mission.tcss",
         "../widgets/styles/pages.tcss",
     ]
-    ENABLE_COMMAND_PALETTE = False
 
     def __init__(
         self,
@@ -77,14 +79,9 @@ class AnaApp(App[None], inherit_bindings=False):
     ) -> None:
         self._preferences_file = preferences or preferences_file()
         self.preferences = load_preferences(self._preferences_file)
-        theme = theme_name(os.environ, self.preferences.ground)
-        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
-        for known in THEMES:
-            self.register_theme(known)
-        self.theme = theme
+        super().__init__(self.preferences.ground)
         self._first = first
         self._options = options
-        self.failure: AnaError | None = None
         self.live: LiveMission | None = None
         self._been_home = False
         self._opened = False
@@ -106,6 +103,11 @@ class AnaApp(App[None], inherit_bindings=False):
     def _note_signal(self, name: str) -> None:
         if self.live is not None:
             self.live.journal.interrupt(name)
+
+    def note_defect(self, error: Exception) -> None:
+        if self.live is not None:
+            with suppress(Exception):
+                self.live.journal.append(Interruption("defect", error=where(error)))
 
     def _leave(self, status: int) -> None:
         self.exit(return_code=status)
@@ -393,7 +395,4 @@ def _run(app: AnaApp) -> int:
             "this is not a terminal",
             hint="Run ana in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
         )
-    app.run(mouse=False)
-    if app.failure is not None:
-        raise app.failure
-    return app.return_code or 0
+    return app.perform_or_report()

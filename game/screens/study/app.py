@@ -4,26 +4,26 @@ anything else."""
 from __future__ import annotations
 
 import asyncio
-import os
 import sys
+from contextlib import suppress
 from pathlib import PurePath
 from typing import ClassVar
 
 from textual import events, work
-from textual.app import App
 from textual.geometry import Size
 from textual.screen import Screen
 
-from game.errors import AnaError
+from game.errors import AnaError, where
 from game.screens.play.mission_screen import Failed, Finished
 from game.screens.study.base import Frame
+from game.screens.study.fault import cannot_go_on
 from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits
 from game.screens.study.seat import ScreenParticipant
 from game.screens.widgets.dialogs import Question
+from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
 from game.screens.widgets.terminal import this_terminal
-from game.screens.widgets.theme import THEMES, theme_name
 from game.study.folder import Identity, Study
 from game.study.ledger import NoPlace
 from game.study.lock import SessionBusy, SessionLock, take_over
@@ -34,7 +34,7 @@ from game.study.texts import Page, filled
 STATUS_TROUBLE = 2
 
 
-class StudyApp(App[None], inherit_bindings=False):
+class StudyApp(Program, inherit_bindings=False):
     """One participant's session on this terminal."""
 
     CSS_PATH: ClassVar[list[str | PurePath]] = [
@@ -43,20 +43,15 @@ class StudyApp(App[None], inherit_bindings=False):
         "../widgets/styles/pages.tcss",
         "study.tcss",
     ]
-    ENABLE_COMMAND_PALETTE = False
 
     def __init__(self, study: Study, identity: Identity) -> None:
-        theme = theme_name(os.environ)
-        super().__init__(ansi_color=True if theme == "ana-terminal" else None)
-        for known in THEMES:
-            self.register_theme(known)
-        self.theme = theme
+        super().__init__()
         self.study = study
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)
         self.session: StudySession | None = None
         self.person = ScreenParticipant(self, self.frame, study.texts, study.settings.mission)
-        self.failure: AnaError | None = None
+        self._lock: SessionLock | None = None
 
     def on_mount(self) -> None:
         lead_out(self._note_signal, self._leave)
@@ -89,12 +84,12 @@ class StudyApp(App[None], inherit_bindings=False):
             await asyncio.to_thread(see_place, self.study, self.identity)
         silent_ms = None
         try:
-            lock = SessionLock(home)
+            self._lock = SessionLock(home)
         except SessionBusy as busy:
             if not await self.push_screen_wait(self._busy_question()):
                 return
             silent_ms = busy.silent_ms
-            lock = await asyncio.to_thread(take_over, home)
+            self._lock = await asyncio.to_thread(take_over, home)
         try:
             self.session = open_session(
                 self.study, self.identity, this_terminal(*self.size), silent_ms=silent_ms
@@ -103,13 +98,23 @@ class StudyApp(App[None], inherit_bindings=False):
                 goodbye = self.study.texts.words.goodbye
                 await self.push_screen_wait(PageScreen(self.frame, goodbye))
         finally:
-            lock.release()
+            self.release()
 
     def _busy_question(self) -> Question:
         words = self.study.texts.words
         return Question(words.busy.title, words.busy.body.strip(), yes=words.go_on, no=words.no)
 
+    def release(self) -> None:
+        """Let go of the session, so that it can be continued."""
+        if self._lock is not None:
+            self._lock.release()
+
     # --- what breaks in -------------------------------------------------------------------------
+
+    def note_defect(self, error: Exception) -> None:
+        if self.session is not None:
+            with suppress(Exception):
+                self.session.note_defect(where(error))
 
     def _note_signal(self, name: str) -> None:
         if self.session is not None:
@@ -147,7 +152,8 @@ class StudyApp(App[None], inherit_bindings=False):
 def run_session(study: Study, identity: Identity) -> int:
     """Let a participant take part at this terminal; the exit status.
 
-    Raises AnaError for what the experimenter can fix.
+    Raises AnaError for what the experimenter can fix; anything else that fails is shown to the
+    participant as a page, and written to the system's log.
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise AnaError(
@@ -155,7 +161,12 @@ def run_session(study: Study, identity: Identity) -> int:
             hint="Run it in a terminal window, not through a pipe; over ssh, use `ssh -t`.",
         )
     app = StudyApp(study, identity)
-    app.run(mouse=False)
-    if app.failure is not None:
-        raise app.failure
-    return app.return_code or 0
+    try:
+        return app.perform()
+    except AnaError:
+        raise
+    except Exception as error:
+        app.release()
+        return cannot_go_on(error, study.texts)
+    finally:
+        app.release()

@@ -14,6 +14,7 @@ from typing import Literal, Protocol
 
 from game.coach.knowledge.assumed import QuizMark
 from game.coach.spec import CoachSpec, coach_given
+from game.errors import AnaError, where
 from game.journal.history import History, Step
 from game.journal.records import (
     ROUNDS,
@@ -114,6 +115,12 @@ async def conduct(session: StudySession, participant: Participant) -> Literal["o
     except Stopped:
         session.stop()
         return "stopped"
+    except AnaError:
+        raise
+    except Exception as error:
+        with suppress(Exception):
+            session.note_defect(where(error))
+        raise
     finally:
         await asyncio.to_thread(session.journal.close)
     return "over"

@@ -22,6 +22,7 @@ from game.journal.records import (
     Allocated,
     Declined,
     Envelope,
+    Interruption,
     Record,
     SessionEnded,
     SessionStarted,
@@ -67,6 +68,7 @@ class StudySession:
         self.history = history_of((entry.envelope, entry.record) for entry in before)
         self._make_sink = keep
         self._kept = bool(before)
+        self._failed = False
 
     @property
     def seed(self) -> int:
@@ -159,6 +161,12 @@ class StudySession:
         await asyncio.to_thread(
             self.study.ledger.end_session, self.identity.participant, self.identity.mode, ending
         )
+
+    def note_defect(self, error: str) -> None:
+        """The program failed unexpectedly; noted once."""
+        if not self._failed:
+            self._failed = True
+            self.record(Interruption("defect", error=error))
 
     def stop(self) -> None:
         """The participant stops, and may come back."""

@@ -124,6 +124,42 @@ def test_an_arrow_key_in_pieces_is_one_arrow_key(playing: Terminal) -> None:
     assert [record["action"] for record in playing.of_type("acted")] == ["north", "west"]
 
 
+NO_KEYS = (
+    b"\x80",
+    b"\xe4 ",
+    b"\x9bA",
+    b"\x1b[M \x85!",
+    b"\x1b[<64;10;10M",
+    b"\x1b[?62;1;4c",
+    b"\x1b]10;rgb:dddd/aaaa/dddd\x1b\\",
+    b"\x1b]11;rgb:dddd/aaaa/dddd\x07",
+    b"\x1bP>|XTerm(370)\x1b\\",
+    b"\x1b[I\x1b[O",
+    b"\x1b[99999999999u",
+    b"\x1b[200~kkk jjj\r\x1b[201~",
+)
+
+
+def test_bytes_that_are_no_keys_do_nothing(playing: Terminal) -> None:
+    for data in NO_KEYS:
+        half = len(data) // 2
+        playing.type(data[:half], data[half:], data, pause=0.05)
+    playing.type(b"k")
+    playing.read(0.5)
+    acted = [record["action"] for record in playing.of_type("acted")]
+    assert acted == ["triage", "triage", "north"]
+    assert "Traceback" not in playing.text()
+
+
+def test_the_wheel_is_no_key_while_the_game_runs(playing: Terminal) -> None:
+    assert playing.output.count(b"\x1b[?1007l") == 1
+    playing.type(b"\x03")
+    playing.wait_for("Leave the mission?")
+    playing.type(b"y")
+    assert playing.end() == 0
+    assert playing.output.rindex(b"\x1b[?1007h") > playing.output.rindex(b"\x1b[?1007l")
+
+
 def test_too_small_then_enlarged_goes_on(playing: Terminal) -> None:
     playing.resize(60, 15)
     playing.wait_for("too small: 60 x 15")
