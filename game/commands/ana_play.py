@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, Literal, TypeVar, get_origin, get_type_hints
 
 import click
 import msgspec
@@ -130,7 +130,8 @@ def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSe
                 f"there is no setting '{name}'", place=place, hint=choose_from(name, kinds)
             )
         try:
-            converted = msgspec.convert(value, kinds[name], strict=False)
+            kind = str if get_origin(kinds[name]) is Literal else kinds[name]
+            converted = msgspec.convert(value, kind, strict=False)
         except msgspec.ValidationError as error:
             raise AnaError(f"{name} cannot be '{value}': {error}", place=place) from error
         settings = _checked(place, settings, **{name: converted})

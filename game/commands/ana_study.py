@@ -36,7 +36,7 @@ _FOLDER = click.argument(
 )
 _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
-_STATUS_TROUBLE = 2
+STATUS_TROUBLE = 2
 STATUS_WRONG = 1
 _NOTHING_WORKS = "The study cannot continue here. Please tell the experimenter."
 _UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
@@ -58,7 +58,8 @@ def make_study(folder: Path, seed: int | None, blocks: int) -> None:
 
     new_study(folder, seed, blocks)
     click.echo(
-        f"{folder}: new study created. Check {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
+        f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
+        f"  ana study check {folder}\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
 
@@ -81,6 +82,37 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
         raise
     except Exception as error:
         return _cannot_go_on(error)
+
+
+@study_group.command("check", short_help="Try everything before the first participant.")
+@_FOLDER
+@click.option("--pictures", type=click.Path(path_type=Path), metavar="OUT",
+              help="Write a picture of every page, and one page with all, to OUT.")  # fmt: skip
+def check_study(folder: Path, pictures: Path | None) -> int:
+    """Open every page of the study DIR at its size, and try the folder, the disk and the settings.
+
+    Exit status 2 where something would go wrong.
+    """
+    from game.screens.study.rehearsal import rehearsed, write_pictures
+    from game.study.folder import open_study
+    from game.study.lab.readiness import shortfalls
+
+    study = open_study(folder)
+    wrong = list(shortfalls(study))
+    pages = rehearsed(study)
+    wrong += [
+        f"page {page.name}: these words are cut off or hidden: {' '.join(page.missing)}"
+        for page in pages
+        if page.missing
+    ]
+    if pictures is not None:
+        click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
+    for one in wrong:
+        click.secho(one, fg="red", err=True)
+    size = study.settings.screen
+    if not wrong:
+        click.echo(f"{folder}: {len(pages)} pages at {size.columns} x {size.rows}; all is well")
+    return STATUS_TROUBLE if wrong else 0
 
 
 @study_group.command("status", short_help="Show where everyone is, and problems.")
@@ -307,7 +339,7 @@ def let_in(folder: Path, *, pilot: bool) -> int:
         log_to_system(str(error))
         words = (texts or shipped_texts()).words
         tell_plainly(filled(words.trouble, problem=error.message))
-        return _STATUS_TROUBLE
+        return STATUS_TROUBLE
     except Exception as error:
         return _cannot_go_on(error, texts)
 

@@ -262,7 +262,7 @@ def test_who_is_rescued_needs_nobody_beside_them(ward: Building) -> None:
 
 
 def test_reds_have_no_more_time_than_the_mission(ward: Building) -> None:
-    settings = MissionSettings(duration_ms=12_000)
+    settings = MissionSettings(duration_ms=12_000, red_expiry_ms=30_000)
     seen = Mission(ward, settings).observation(None)
     assert "0:12 for reds" in "\n".join(plain(status_rows(seen, settings, 26)))
 

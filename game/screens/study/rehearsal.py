@@ -1,0 +1,274 @@
+"""Every page of a study as participants will see it, opened without a person: what does not fit,
+and a picture of each."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from html import escape
+from pathlib import Path, PurePath
+from typing import Any, ClassVar, Literal
+
+from textual.containers import Center
+from textual.pilot import Pilot
+from textual.screen import Screen
+from textual.widget import Widget
+from textual.widgets import Static
+
+from game.journal.clock import VirtualClock
+from game.journal.sink import MemorySink
+from game.rescuers.person import POPULATIONS
+from game.screens.study.app import StudyApp
+from game.screens.study.base import Frame, StudyScreen
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.pages import PageScreen, Signs
+from game.screens.study.planmap import PlanMap
+from game.screens.study.reason import ReasonScreen
+from game.screens.study.sliders import SlidersScreen
+from game.screens.widgets.program import Program
+from game.simulation.simulated_participant import SimulatedParticipant
+from game.simulation.simulated_session import HeldStudy
+from game.study.design import BLOCK, design_cell
+from game.study.folder import Identity, Study, StudyError
+from game.study.ledger import SlotTaken
+from game.study.protocol.conduct import conduct
+from game.study.protocol.study_session import StudySession, open_session
+from game.study.protocol.tasks import Memorising, Sheet
+from game.study.texts import Consent, Page, filled, preceded
+from game.world.building import Building
+
+MOST_VIEWS = 40
+"""So many times a page is scrolled on at most."""
+
+
+Make = Callable[[], Screen[Any]]
+"""Makes a screen, inside the program that shows it."""
+
+
+@dataclass(frozen=True)
+class Rehearsed:
+    """A page: its name, the words that nobody could have read, and its pictures as SVG."""
+
+    name: str
+    missing: tuple[str, ...]
+    pictures: tuple[str, ...]
+
+
+class _Showing(Program, inherit_bindings=False):
+    CSS_PATH: ClassVar[list[str | PurePath]] = StudyApp.CSS_PATH
+
+    def __init__(self, make: Make) -> None:
+        super().__init__("dark")
+        self._make = make
+
+    async def on_mount(self) -> None:
+        await self.push_screen(self._make())
+
+
+async def shown(name: str, frame: Frame, make: Make, words: str) -> Rehearsed:
+    """Open a page at the study's size, look at all of it, and compare it with its `words`."""
+    app = _Showing(make)
+    views: list[list[str]] = []
+    pictures: list[str] = []
+    async with app.run_test(size=(frame.size.columns, frame.size.rows)) as pilot:
+        await pilot.pause()
+        for _ in range(MOST_VIEWS):
+            view = painted(app)
+            if view in views:
+                break
+            views.append(view)
+            pictures.append(app.export_screenshot(title=name))
+            await _go_on(pilot)
+    return Rehearsed(name, tuple(_unseen(words, views)), tuple(pictures))
+
+
+async def _go_on(pilot: Pilot[None]) -> None:
+    """To what stands below: the next question, or a page further."""
+    screen = pilot.app.screen
+    if isinstance(screen, SlidersScreen | LikertScreen):
+        await pilot.press("down")
+    else:
+        for scrolled in screen.query(Widget):
+            if scrolled.max_scroll_y > scrolled.scroll_y:
+                scrolled.scroll_page_down(animate=False)
+    await pilot.pause()
+
+
+def painted(app: Program) -> list[str]:
+    """The lines in the window."""
+    return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
+
+
+def _unseen(words: str, views: Sequence[Sequence[str]]) -> Iterator[str]:
+    """The words that are in no view, whole. A word that is longer than a line, or is written
+    without spaces, may be broken between lines."""
+    lines = [line for view in views for line in view]
+    tokens = {token for line in lines for token in line.split()}
+    joined = ["".join("".join(line.split()) for line in view) for view in views]
+    for word in dict.fromkeys(words.replace("**", "").split()):
+        in_a_line = word in tokens or any(word in line for line in lines)
+        if not in_a_line and not (_may_break(word) and any(word in one for one in joined)):
+            yield word
+
+
+def _may_break(word: str) -> bool:
+    return len(word) > 40 or any(ord(letter) > 0x2E80 for letter in word)
+
+
+class _Rehearsal(SimulatedParticipant):
+    """Goes through a session as a simulated person does, and has every page opened on the way."""
+
+    def __init__(self, session: StudySession, clock: VirtualClock, frame: Frame) -> None:
+        super().__init__(session, clock, POPULATIONS["default"])
+        self.pages: list[Rehearsed] = []
+        self._frame = frame
+        self._study = session.study
+        self._mission = session.study.settings.mission
+
+    async def agree(self, page: Consent) -> bool:
+        options = page.agree, page.decline
+        await self._show(
+            "consent", lambda: ChoiceScreen(self._frame, page, options), page, *options
+        )
+        return await super().agree(page)
+
+    async def read(self, page: Page) -> None:
+        walking = page is self._study.texts.lessons.walking
+
+        def made() -> Screen[Any]:
+            return PageScreen(self._frame, page, *([Signs(self._mission)] if walking else []))
+
+        await self._show(page.title, made, page)
+        await super().read(page)
+
+    async def look(self, page: Page, building: Building) -> None:
+        await self._show(page.title, lambda: PageScreen(self._frame, page, PlanMap(building)), page)
+        await super().look(page, building)
+
+    async def choose(self, page: Page, sheet: Sheet) -> None:
+        (asked,) = sheet.asked
+        name, words = f"{page.title} {asked.item}", (asked.text, *asked.anchors)
+
+        def made() -> Screen[Any]:
+            return ChoiceScreen(self._frame, page, asked.anchors, question=asked.text)
+
+        await self._show(name, made, page, *words)
+        await super().choose(page, sheet)
+
+    async def slide(self, page: Page, sheet: Sheet) -> None:
+        words = [word for it in sheet.asked for word in (it.text, *it.anchors)]
+        await self._show(page.title, lambda: SlidersScreen(self._frame, page, sheet), page, *words)
+        await super().slide(page, sheet)
+
+    async def rate(self, page: Page, sheet: Sheet) -> None:
+        words = [word for it in sheet.asked for word in (it.text, *it.anchors)]
+        await self._show(page.title, lambda: LikertScreen(self._frame, page, sheet), page, *words)
+        await super().rate(page, sheet)
+
+    async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
+        await self._show(
+            page.title, lambda: ChoiceScreen(self._frame, page, options), page, *options
+        )
+        return await super().prefer(page, options)
+
+    async def explain(self, page: Page) -> str:
+        await self._show(page.title, lambda: ReasonScreen(self._frame, page), page)
+        return await super().explain(page)
+
+    async def memorise(self, task: Memorising) -> None:
+        map_page = Page(title=f"Map of {task.building.name}", body="")
+        names = (room.name for room in task.building.rooms)
+
+        def made() -> Screen[Any]:
+            title = Static(map_page.title, classes="title", markup=False)
+            plan = Center(PlanMap(task.building), classes="middle")
+            return StudyScreen(self._frame, [title, plan])
+
+        await self._show(map_page.title, made, *names)
+        await super().memorise(task)
+
+    async def _show(self, name: str, make: Make, *words: Page | str) -> None:
+        said = "\n".join(it if isinstance(it, str) else f"{it.title}\n{it.body}" for it in words)
+        number = f"{len(self.pages) + 1:02} {name}"
+        self.pages.append(await shown(number, self._frame, make, said))
+
+    async def others(self) -> None:
+        """The pages that a session without trouble does not come by."""
+        texts, words = self._study.texts, self._study.texts.words
+        likert = filled(texts.likert, instructor=texts.instructors.second)
+        for page in (
+            texts.declined,
+            texts.no_place,
+            texts.withdrawn,
+            words.goodbye,
+            words.busy,
+            filled(words.trouble, problem="study.toml changed after the first participant"),
+            preceded(likert, texts.cut_off.mission),
+        ):
+            await self._show(page.title, partial(PageScreen, self._frame, page), page)
+
+
+async def rehearse(study: Study) -> list[Rehearsed]:
+    """Every page of the study, in the order of a session with the longest memorise time. Nothing is
+    written to the study's folder."""
+    cells = (design_cell(study.settings.seed, "pilot", slot) for slot in range(BLOCK))
+    slot, cell = next((n, it) for n, it in enumerate(cells) if it.long_memorise)
+    held = HeldStudy(
+        **{name: getattr(study, name) for name in study.__dataclass_fields__ if name != "folder"},
+        folder=Path(os.devnull),
+        taken=SlotTaken(participant="CHECK", mode="pilot", slot=slot, cell=cell),
+    )
+    clock, sink = VirtualClock(), MemorySink()
+    session = open_session(
+        held, Identity("pilot", "CHECK"), None, clock=clock, rescuer="check", sink=lambda _: sink
+    )
+    frame = Frame(study.settings.screen, study.texts.words)
+    person = _Rehearsal(session, clock, frame)
+    await conduct(session, person)
+    await person.others()
+    return person.pages
+
+
+def rehearsed(study: Study) -> list[Rehearsed]:
+    """The same, without an event loop around."""
+    return asyncio.run(rehearse(study))
+
+
+def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
+    """Write every page as SVG to the new folder `out`, and one HTML page with all of them, whose
+    path is returned. Raises StudyError where that cannot be done."""
+    body = []
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for number, page in enumerate(pages, start=1):
+            body.append(f"<h2>{escape(page.name)}</h2>")
+            for part, picture in enumerate(page.pictures, start=1):
+                name = f"{number:02}-{part}.svg"
+                (out / name).write_text(picture, encoding="utf-8")
+                body.append(f'<img src="{name}" alt="{escape(page.name)}">')
+        index = out / "index.html"
+        index.write_text(_HTML.format(title=escape(study), body="\n".join(body)), "utf-8")
+    except OSError as error:
+        raise StudyError(
+            f"the pictures cannot be written ({error.strerror})",
+            place=str(out),
+            hint="Choose a folder that you can write to",
+        ) from error
+    return index
+
+
+_HTML = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><title>{title}</title>
+<style>
+body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto }}
+img {{ width: 100% }}
+</style>
+<h1>{title}</h1>
+<p>Every page as participants see it, in the order of a session.</p>
+{body}
+</html>
+"""

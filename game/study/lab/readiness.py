@@ -1,0 +1,77 @@
+"""Whether this machine and this folder can carry a study: tried before the first participant."""
+
+from __future__ import annotations
+
+import fcntl
+import locale
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+from game.errors import AnaError
+from game.journal.folders import SESSIONS
+from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, Study
+from game.study.lab.hindrances import Hindrances
+from game.study.ledger import lock_whole
+
+_TRIAL = ".check"
+
+
+def shortfalls(study: Study) -> Iterator[str]:
+    """Everything that would keep sessions from being run or kept here, in words."""
+    yield from Hindrances(study.folder).look(study.ledger.entries())
+    yield from _files(study.folder)
+    yield from _writing(study.folder)
+    yield from _locale()
+    yield from _half_time(study)
+
+
+def _files(folder: Path) -> Iterator[str]:
+    owner = folder.stat().st_uid
+    for path in (folder, *sorted(folder.glob("*")), *sorted((folder / SESSIONS).glob("*/*"))):
+        found = path.stat()
+        if found.st_uid != owner:
+            yield f"{path} belongs to another account; give it to {folder.owner()} with chown"
+        if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+            yield f"{path} can be written by other accounts; take that away with chmod go-w"
+    for name in (SETTINGS, TEXTS, ITEMS, LEDGER):
+        if not os.access(folder / name, os.R_OK):
+            yield f"{folder / name} cannot be read by this account"
+    if not os.access(folder / LEDGER, os.W_OK):
+        yield f"{folder / LEDGER} cannot be written by this account"
+
+
+def _writing(folder: Path) -> Iterator[str]:
+    """Write, sync and lock a file where sessions will lie."""
+    path = folder / _TRIAL
+    try:
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    except OSError as error:
+        yield f"nothing can be written in {folder} ({error.strerror})"
+        return
+    try:
+        os.write(descriptor, b"check\n")
+        os.fsync(descriptor)
+        lock_whole(descriptor, path, wait=False)
+        fcntl.flock(descriptor, fcntl.LOCK_UN)
+    except (OSError, AnaError) as error:
+        yield str(error)
+    finally:
+        os.close(descriptor)
+        path.unlink(missing_ok=True)
+
+
+def _locale() -> Iterator[str]:
+    encoding = locale.getpreferredencoding(do_setlocale=False)
+    if encoding.replace("-", "").casefold() != "utf8":
+        yield f"the locale's encoding is {encoding}, not UTF-8: set LANG=C.UTF-8 for the account"
+
+
+def _half_time(study: Study) -> Iterator[str]:
+    """The texts must say when red victims expire, unless that is when the mission ends."""
+    mission, rules = study.texts.mission, study.settings.mission
+    early = rules.reds_expire_ms < rules.duration_ms
+    told = "{red_time}" in mission.body or "{red_time}" in mission.title
+    if early and not told:
+        yield f"{TEXTS}, mission: nothing says that red victims expire; add {{red_time}}"

@@ -1,0 +1,96 @@
+"""`ana study check`: every page opened, the folder and the disk tried, before anybody comes."""
+
+from __future__ import annotations
+
+import fcntl
+import shutil
+from pathlib import Path
+
+import pytest
+
+from game.cli import main
+from game.screens.study.rehearsal import Rehearsed, rehearsed
+from game.study.folder import Study, new_study, open_study
+from game.study.lab.readiness import shortfalls
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("check") / "study"
+    new_study(folder, seed=3, blocks=1)
+    return folder
+
+
+@pytest.fixture
+def folder(made: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "study"))
+
+
+def page(pages: list[Rehearsed], title: str) -> Rehearsed:
+    return next(one for one in pages if title in one.name)
+
+
+def edit(folder: Path, name: str, before: str, after: str) -> Study:
+    path = folder / name
+    text = path.read_text(encoding="utf-8")
+    assert before in text
+    path.write_text(text.replace(before, after, 1), encoding="utf-8")
+    return open_study(folder)
+
+
+def test_a_new_study_is_well_and_pictured(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "pictures"
+    assert main(["study", "check", str(folder), "--pictures", str(out)]) == 0
+    assert "all is well" in capsys.readouterr().out
+    pictures = sorted(out.glob("*.svg"))
+    index = (out / "index.html").read_text(encoding="utf-8")
+    assert len(pictures) >= 36
+    assert all(picture.name in index for picture in pictures)
+    assert "Map of" in index
+    assert not (folder / "sessions").exists()
+
+
+def test_words_that_cannot_be_seen_fail_it(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
+    edit(folder, "items.toml", 'low = "', f'low = "{endless} ')
+    assert main(["study", "check", str(folder)]) == 2
+    assert "these words are cut off or hidden" in capsys.readouterr().err
+
+
+def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(folder: Path) -> None:
+    more = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
+    study = edit(folder, "texts.toml", "You can now close this window.", f"{more}\n\nThe very end.")
+    last = page(rehearsed(study), "Thank you for taking part")
+    assert len(last.pictures) > 1
+    assert last.missing == ()
+
+
+def test_texts_must_say_when_reds_expire(folder: Path) -> None:
+    study = edit(folder, "texts.toml", "in the first {red_time}", "soon")
+    assert any("red victims expire" in one for one in shortfalls(study))
+
+
+def test_rights_and_locks_are_tried(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = open_study(folder)
+    assert list(shortfalls(study)) == []
+    (folder / "texts.toml").chmod(0o666)
+    assert any("chmod go-w" in one for one in shortfalls(study))
+    (folder / "texts.toml").chmod(0o600)
+
+    def refuse(_file: object, _operation: int) -> None:
+        raise OSError(37, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    assert any("local disk" in one for one in shortfalls(study))
+    monkeypatch.setattr("shutil.disk_usage", lambda _: shutil._ntuple_diskusage(1, 1, 5_000_000))
+    assert any("nearly full: 5 MB" in one for one in shortfalls(study))
+
+
+def test_a_locale_without_utf8_is_told(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = open_study(folder)
+    monkeypatch.setattr("locale.getpreferredencoding", lambda do_setlocale: "ISO-8859-1")
+    assert any("set LANG=C.UTF-8" in one for one in shortfalls(study))
