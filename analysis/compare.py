@@ -56,6 +56,7 @@ def _names(_ctx: click.Context, _option: click.Parameter, value: str | None) -> 
 @click.option("--hypercube", type=click.IntRange(1), metavar="N",
               help="Draw N worlds by Latin hypercube, and average over them.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), help="Processes.  [default: all cores]")
+@click.option("--scheduler", metavar="ADDRESS", help="Use the dask cluster of this scheduler.")
 @click.option("--json", "out", type=click.Path(path_type=Path), metavar="OUT.json",
               help="Write all numbers here.")  # fmt: skip
 @click.option("--figures", type=click.Path(path_type=Path), metavar="DIR",
@@ -70,6 +71,7 @@ def command(
     seed: int,
     hypercube: int | None,
     jobs: int | None,
+    scheduler: str | None,
     out: Path | None,
     figures: Path | None,
 ) -> None:
@@ -95,6 +97,7 @@ def command(
         seed=seed,
         of=of,
         jobs=jobs,
+        scheduler=scheduler,
     )
     trials = pd.DataFrame(list(rows))
     parts = []

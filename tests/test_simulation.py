@@ -18,6 +18,8 @@ from game.journal.reader import read_journal
 from game.journal.records import Allocated, QuizSubmitted, SessionEnded
 from game.rescuers.person import POPULATIONS, Population
 from game.session.verification import verify
+from game.simulation.comparison import Plan, trials
+from game.simulation.contenders import contender
 from game.simulation.simulated_study import Workers, names, simulate
 from game.simulation.workers import Journals, SchedulerError, here, on_cluster, on_cores
 from game.study.design import design_cell
@@ -62,6 +64,11 @@ def test_a_cluster_writes_the_same_bytes(study: Path, tmp_path: Path) -> None:
     with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
         workers = partial(on_cluster, address=cluster.scheduler_address)
         assert files(made(tmp_path / "study", workers)) == files(study)
+        compared = Plan(
+            (contender("static:1"),), {"default": DEFAULT}, ("practice",), 2, 3, "choosing"
+        )
+        alone = trials(compared, 1, lambda _done, _of: None)
+        assert trials(compared, 1, lambda _done, _of: None, cluster.scheduler_address) == alone
 
 
 @needs_cluster

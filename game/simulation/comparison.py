@@ -28,7 +28,7 @@ from game.rescuers.person.responses import DEMAND
 from game.rescuers.person.worlds import world, world_at
 from game.session.playing import assemble, mission_started
 from game.simulation.contenders import Contender, Quiz, contender
-from game.simulation.workers import AHEAD, cores
+from game.simulation.workers import AHEAD, cluster, cores
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import MissionSettings
@@ -198,13 +198,16 @@ def known_rooms(building: Building, memory: MapMemory) -> dict[str, bool]:
     return {room.name: memory.names.get(room.label) == room.name for room in building.rooms}
 
 
-def trials(plan: Plan, jobs: int, tick: Callable[[int, int], None]) -> list[Trial]:
-    """All trials, in an order that does not depend on `jobs`. `tick` is told how much is done."""
+def trials(
+    plan: Plan, jobs: int, tick: Callable[[int, int], None], scheduler: str | None = None
+) -> list[Trial]:
+    """All trials, in an order that does not depend on where they are played: by `jobs` processes,
+    or on the cluster of a dask `scheduler`. `tick` is told how much is done."""
     work = plan.matters()
     for name in plan.buildings:
         _building(name)
     found: list[Trial] = []
-    for done, some in enumerate(_everything(plan, work, jobs), 1):
+    for done, some in enumerate(_everything(plan, work, jobs, scheduler), 1):
         found += some
         tick(done, len(work))
     return found
@@ -221,6 +224,7 @@ def asked_trials(
     seed: int,
     of: People,
     jobs: int | None,
+    scheduler: str | None = None,
 ) -> Iterator[dict[str, Any]]:
     """The trials that somebody asks for by names, as plain rows. `cube` holds points of the unit
     cube, each a world `drawn N`. Raises AnaError for a name that there is not."""
@@ -233,10 +237,18 @@ def asked_trials(
         seed,
         of,
     )
-    return (msgspec.to_builtins(trial) for trial in trials(plan, jobs or cores(), tick))
+    return (msgspec.to_builtins(trial) for trial in trials(plan, jobs or cores(), tick, scheduler))
 
 
-def _everything(plan: Plan, work: Sequence[Matter], jobs: int) -> Iterator[list[Trial]]:
+def _everything(
+    plan: Plan, work: Sequence[Matter], jobs: int, scheduler: str | None
+) -> Iterator[list[Trial]]:
+    if scheduler is not None:
+        with cluster(scheduler) as client:
+            shared = client.scatter(plan, broadcast=True)
+            for future in [client.submit(play, shared, one, pure=False) for one in work]:
+                yield future.result()
+        return
     if jobs == 1:
         yield from (play(plan, matter) for matter in work)
         return

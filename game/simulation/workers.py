@@ -11,6 +11,7 @@ import signal
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
@@ -55,6 +56,19 @@ def on_cluster(
 ) -> Journals:
     """Compute the sessions on the workers of the dask scheduler at `address`. They need the same
     version of `ana`, but no shared folder. Raises SchedulerError if it cannot be reached."""
+    with cluster(address, timeout_s) as client:
+        shared = client.scatter(study, broadcast=True)
+
+        def submit(taken: SlotTaken) -> Any:
+            return client.submit(play_session, shared, taken, population, pure=False)
+
+        cores = sum(client.ncores().values()) or 1
+        yield from _in_order(work, submit, cores * AHEAD)
+
+
+@contextmanager
+def cluster(address: str, timeout_s: float = 10) -> Iterator[Any]:
+    """A client of the dask scheduler at `address`. Raises SchedulerError where none answers."""
     try:
         from distributed import Client
     except ImportError as error:
@@ -72,13 +86,7 @@ def on_cluster(
             hint="Start one with `dask scheduler`, and give its address, tcp://HOST:PORT",
         ) from error
     with client:
-        shared = client.scatter(study, broadcast=True)
-
-        def submit(taken: SlotTaken) -> Any:
-            return client.submit(play_session, shared, taken, population, pure=False)
-
-        cores = sum(client.ncores().values()) or 1
-        yield from _in_order(work, submit, cores * AHEAD)
+        yield client
 
 
 def cores() -> int:
