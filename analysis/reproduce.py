@@ -29,6 +29,8 @@ PARTICIPANTS = 108
 #: Two blocks of the design, for each preset and kind of people.
 PARTICIPANTS_EACH = 48
 SEED = 2024
+#: Some of whom leave early.
+PEOPLE = "as-they-come"
 BLOCK = 24
 MADE = ("study", "presets", "tables", "figures", "notebooks", "report")
 DEFAULT_PRESET = 'preset = "floodfill"'
@@ -50,7 +52,7 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
     for name in MADE:
         shutil.rmtree(out / name, ignore_errors=True)
     say(f"A study of {participants} simulated people")
-    _simulate(out / "study", participants, seed)
+    _simulate(out / "study", participants, seed, "--population", PEOPLE)
     say("Playing every mission again from its actions, and reading the journals")
     recorded = _read(out / "study")
     for path in write_tables(recorded, out / "tables"):

@@ -13,10 +13,11 @@ from game.journal.clock import SIMULATED_EPOCH_MS, VirtualClock
 from game.journal.records import StudyMode
 from game.journal.sink import MemorySink
 from game.rescuers.person import Population
+from game.simulation.leaver import Leaver, pages_before_leaving
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.study.folder import LEDGER, Identity, Study
 from game.study.ledger import Ledger, LedgerEntry, SessionEnding, SlotTaken
-from game.study.protocol.conduct import conduct
+from game.study.protocol.conduct import Participant, conduct
 from game.study.protocol.study_session import open_session
 
 _NO_FOLDER = Path(os.devnull)
@@ -58,7 +59,10 @@ def play_session(study: Study, taken: SlotTaken, population: Population) -> byte
         rescuer=rescuer_name(population),
         sink=lambda _path: sink,
     )
-    asyncio.run(conduct(session, SimulatedParticipant(session, clock, population)))
+    person: Participant = SimulatedParticipant(session, clock, population)
+    if (pages := pages_before_leaving(session, population)) is not None:
+        person = Leaver.of(person, pages)
+    asyncio.run(conduct(session, person))
     return bytes(sink.data)
 
 

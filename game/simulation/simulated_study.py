@@ -46,13 +46,13 @@ def simulate(
     slots = [ledger.allocate(name, "simulated") for name in names(participants)]
     finished = [taken for taken in slots if _journal_of(study, taken).exists()]
     for taken in finished:
-        _end(ledger, taken)
+        _end(ledger, taken, _journal_of(study, taken).read_bytes())
     done = len(finished)
     yield done
     work = [taken for taken in slots if taken not in finished]
     for taken, journal in workers(study, work, population):
         _write(_journal_of(study, taken), journal)
-        _end(ledger, taken)
+        _end(ledger, taken, journal)
         done += 1
         yield done
 
@@ -101,8 +101,10 @@ def _journal_of(study: Study, taken: SlotTaken) -> Path:
     return study.home(Identity("simulated", taken.participant)) / JOURNAL
 
 
-def _end(ledger: Ledger, taken: SlotTaken) -> None:
-    if ending_of(ledger.entries(), taken.participant, "simulated") is None:
+def _end(ledger: Ledger, taken: SlotTaken, journal: bytes) -> None:
+    """Note that a session has ended; whoever left has not ended it."""
+    left = b'"reason":"quit"' in journal.splitlines()[-1]
+    if not left and ending_of(ledger.entries(), taken.participant, "simulated") is None:
         ledger.end_session(taken.participant, "simulated", "finished")
 
 

@@ -12,7 +12,7 @@ SEED = 2024
 BLOCKS = 5
 
 
-def first_of_the_shipped(folder: Path, participants: int, population: str = "default") -> None:
+def first_of_the_shipped(folder: Path, participants: int, population: str = "as-they-come") -> None:
     """The first participants of the shipped study, simulated again; or others in their place."""
     new_study(folder, SEED, BLOCKS)
     for _ in simulate(folder, participants, SEED, POPULATIONS[population], here):

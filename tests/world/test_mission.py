@@ -145,7 +145,8 @@ def test_a_treatment_that_ends_as_the_reds_expire_rescues() -> None:
 def test_the_mission_ends_on_time_whatever_the_last_tick() -> None:
     play = mission(duration_ms=10_000)
     events = play.step(Action.WEST, 60_000)
-    assert events == [MissionEnded(10_000, rescued=0)]
+    assert events[-1] == MissionEnded(10_000, rescued=0)
+    assert {(type(event), event.at_ms) for event in events[:-1]} == {(Expired, 5_000)}
     assert play.time_ms == 10_000 and play.next_due is None
     assert play.step(Action.WEST, 60_001) == []
 

@@ -146,7 +146,8 @@ class Population:
 
     `effect` multiplies everything that a mission does to answers: 0 plants no effect at all, 1 the
     effects of `game.rescuers.person.responses`. `noise` is the standard deviation of an answer
-    around what the person means, in points of 1 to 100.
+    around what the person means, in points of 1 to 100. `leaving` is the share of people who stop
+    taking part in a study, at some point after they have been given a place.
     """
 
     name: str
@@ -154,6 +155,7 @@ class Population:
     spread: Traits = SPREAD
     effect: float = 1.0
     noise: float = 9.0
+    leaving: float = 0.0
 
 
 SIGNED = ("mood",)

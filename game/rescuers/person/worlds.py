@@ -10,7 +10,7 @@ from hashlib import sha256
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 
@@ -33,6 +33,7 @@ class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     spread: dict[str, float] = msgspec.field(default_factory=dict)
     effect: float = 1.0
     noise: float = 9.0
+    leaving: Annotated[float, msgspec.Meta(ge=0, le=1)] = 0.0
 
 
 def world(name: str) -> Population:
@@ -72,6 +73,7 @@ def parse_world(name: str, text: str, place: str) -> Population:
         spread=_changed(SPREAD, file.spread, f"{place}, spread"),
         effect=file.effect,
         noise=file.noise,
+        leaving=file.leaving,
     )
 
 
