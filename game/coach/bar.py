@@ -151,6 +151,10 @@ class Bar:
         """Whether the last notice has been there long enough to be read."""
         return self._compliance.may_notice
 
+    def unread_notice(self, at_ms: int) -> str:
+        """The notice on the bar, as long as it cannot have been read; else nothing."""
+        return self.guidance.notice if at_ms < self._compliance.notice_ms else ""
+
     def correct(self, at_ms: int) -> list[CoachRecord]:
         """Count the misstep, and the disobedience where it is one."""
         assert self.shown is not None

@@ -293,8 +293,9 @@ class Guide(ABC, Generic[State]):
         return [self.bar.complete(at_ms), *self._choose("completed", at_ms, pose)]
 
     def _follow_level(self, at_ms: int, pose: Pose) -> list[CoachRecord]:
-        """A new level replaces at once what has not been carried out."""
+        """A new level replaces at once what has not been carried out; a notice that cannot have
+        been read yet stays."""
         shown = self.bar.shown
         if shown is None or not self.bar.open or shown.instruction.level is self.level:
             return []
-        return self._issue(at_ms, pose, "level")
+        return self._issue(at_ms, pose, "level", self.bar.unread_notice(at_ms))

@@ -14,16 +14,17 @@ from game.coach.acts import (
     Level,
     Misstep,
 )
-from game.coach.compliance import HEEDED_CELLS
+from game.coach.compliance import HEEDED_CELLS, NOTICE_MS, NOTICE_MS_PER_LETTER
 from game.coach.guide import ANOTHER_FIRST
 from game.coach.instructions.notices import WRONG_WAY
 from game.coach.lead import GOAL_MS
 from game.coach.route import Route, RoutePlanner
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted
-from game.world.settings import MissionSettings
+from game.world.settings import FREE_PLAY, MissionSettings
 from tests.coach.scripted import (
     GALLERY,
+    KNOWLEDGE,
     LONG,
     PRACTICE,
     STATIC,
@@ -186,3 +187,23 @@ def test_a_victim_that_fits_the_words_as_well_is_adopted() -> None:
     assert not only(Disobeyed, happened)
     assert len(only(InstructionCompleted, happened)) == 1
     assert only(GoalSet, happened)[0].reason == "rescued"
+
+
+def test_a_notice_outlives_a_change_of_level_until_it_can_be_read() -> None:
+    game = Game(KNOWLEDGE[0], PRACTICE, FREE_PLAY)
+    for _ in range(2):
+        game.run.ask_level("shorter", game.now_ms)
+    game.wait(TO_READ_MS)
+    while not only(Misstep, game.records):
+        game.act(away(game))
+    notice = game.coach.guidance.notice
+    assert notice
+    for _ in range(4):
+        game.run.ask_level("simpler", game.now_ms)
+    told = only(InstructionIssued, game.records)[-1]
+    assert (told.reason, told.notice) == ("level", notice)
+    game.wait(NOTICE_MS + NOTICE_MS_PER_LETTER * len(notice))
+    for _ in range(4):
+        game.run.ask_level("shorter", game.now_ms)
+    told = only(InstructionIssued, game.records)[-1]
+    assert (told.reason, told.notice) == ("level", "")
