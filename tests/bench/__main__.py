@@ -15,7 +15,7 @@ import click
 
 from tests.bench.coach import coach_costs, coached_keys, mission_s, route_p99_ms
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paints_ms, key_costs
-from tests.bench.simulation import simulation_rates
+from tests.bench.simulation import missions_a_second, simulation_rates
 from tests.bench.ssh import PARTICIPANTS, at_once
 from tests.study.server import SSH, SSHD
 
@@ -107,6 +107,9 @@ def simulating() -> Iterator[Figure]:
     yield Figure("simulated sessions", rates.sessions_per_s, "/s")
     yield Figure("their missions, practice too", rates.missions_per_s, "/s")
     yield Figure("mission time to processor time", rates.sped, "")
+    for coach in ("static", "ana", "knowledge"):
+        rate = missions_a_second(coach)
+        yield Figure(f"four-minute missions a core, {coach}", rate, "/s")
 
 
 def ssh() -> Iterator[Figure]:

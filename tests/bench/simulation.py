@@ -8,11 +8,18 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from game.coach.spec import parse_coach
+from game.rescuers.catalogue import character
+from game.rescuers.driver import drive
 from game.rescuers.person import POPULATIONS
+from game.session.playing import start_in_memory
 from game.simulation.simulated_study import simulate
 from game.simulation.workers import here
+from game.world import load_building
+from game.world.settings import MissionSettings
 
-SESSIONS = 6
+SESSIONS, MISSIONS = 6, 16
+RULES = MissionSettings(show_score=False, allow_pause=False)
 
 
 @dataclass(frozen=True)
@@ -42,6 +49,26 @@ def simulation_rates() -> Rates:
                 elif record["type"] in ("mission_ended", "mission_abandoned"):
                     mission_ms += record["at_ms"]
     return Rates(SESSIONS / spent_s, missions / spent_s, mission_ms / 1000 / spent_s)
+
+
+def missions_a_second(coach: str) -> float:
+    """Four-minute missions of simulated people with a coach, journals written, by one core."""
+    buildings = [load_building(name) for name in ("harbour", "foundry")]
+
+    def play(seed: int) -> None:
+        for building in buildings:
+            rescuer = character("newcomer" if seed % 2 else "person").make(building, RULES, seed)
+            run, journal = start_in_memory(
+                building, RULES, parse_coach(coach), seed, rescuer="person"
+            )
+            drive(run, rescuer)
+            journal.close()
+
+    play(0)
+    start = time.process_time()
+    for seed in range(MISSIONS // len(buildings)):
+        play(seed)
+    return MISSIONS / (time.process_time() - start)
 
 
 def _simulate(folder: Path, people: int) -> None:
