@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Collection, Mapping
 from math import inf
+from operator import add, sub
 
 from game.coach.goals import UNIT, Likelihood, log_factor, posterior, step_pattern
 from game.world.floodfill import UNREACHABLE, Floodfills
@@ -96,12 +97,10 @@ class GoalFilter:
         self._position = position
         self._window.append(step)
         if self._window_moves is None or len(self._window) <= self._window_moves:
-            self._sums = [total + new for total, new in zip(self._sums, step, strict=True)]
+            self._sums = list(map(add, self._sums, step))
         else:
             gone = self._window.popleft()
-            self._sums = [
-                total + new - old for total, new, old in zip(self._sums, step, gone, strict=True)
-            ]
+            self._sums = list(map(sub, map(add, self._sums, step), gone))
 
     def posterior(self, goals: Collection[str], prior: Mapping[str, float]) -> dict[str, float]:
         """P(goal | window) over `goals`, which are some of the table's; in the table's order.

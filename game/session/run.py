@@ -40,6 +40,8 @@ class MissionRun:
         self._happened: list[RunRecord] = []
         self._next_move_ms = 0
         self._pending: _Pending | None = None
+        self._due: Due | None = None
+        """What is next due, until something happens."""
 
     @property
     def ended(self) -> bool:
@@ -57,6 +59,7 @@ class MissionRun:
         """Let the coach give its first instruction. Call once, at 0 ms."""
         with self._recording():
             self._happened += self.coach.begin(self.mission.observation())
+            self._due = None
 
     def observation(self) -> Observation:
         return self.mission.observation(self.coach.guidance)
@@ -123,22 +126,26 @@ class MissionRun:
         self._tell(self.mission.step(action, at_ms, pressed_ms))
 
     def _next_due(self) -> Due:
-        due = self.mission.next_due
-        assert due is not None
-        evaluation_ms = self.coach.next_evaluation_ms
-        if evaluation_ms is not None:
-            due = min(due, Due(evaluation_ms, Order.EVALUATION))
-        return due
+        if self._due is None:
+            due = self.mission.next_due
+            assert due is not None
+            evaluation_ms = self.coach.next_evaluation_ms
+            if evaluation_ms is not None:
+                due = min(due, Due(evaluation_ms, Order.EVALUATION))
+            self._due = due
+        return self._due
 
     def _fire_until(self, now_ms: int) -> None:
         while not self.ended and (due := self._next_due()).at_ms <= now_ms:
             if due.order is Order.EVALUATION:
                 self.mission.pass_time(due.at_ms)
+                self._due = None
                 self._happened += self.coach.evaluate(due.at_ms, self.mission.observation())
             else:
                 self._tell(self.mission.fire_next())
 
     def _tell(self, events: Iterable[MissionEvent]) -> None:
+        self._due = None
         for event in events:
             self._happened.append(event)
             self._happened += self.coach.on_event(event, self.mission.observation())

@@ -7,6 +7,7 @@ at a tie; so extra steps without an action change nothing.
 from __future__ import annotations
 
 from enum import IntEnum
+from itertools import chain
 from typing import NamedTuple
 
 from game.world.building import Building, Severity, VictimSite
@@ -89,6 +90,9 @@ class Mission:
         self._name_bits = tuple(
             (SeenRoom(room.name, room.label), bit(room.label)) for room in building.rooms
         )
+        self._seen = _Seen(0, (), (), ())
+        marked = (site.cell for site in building.victims), (it.label for it in building.rooms)
+        self._marks = building.plan.mask(chain(*marked))
         self._reds_waiting = [s.id for s in building.victims if s.severity is Severity.RED]
         self._look()
 
@@ -204,7 +208,7 @@ class Mission:
         if not self.building.plan.walkable(target):
             return Outcome.BUMPED, []
         self.position = target
-        self._look()
+        self._look(changed=False)
         if self._treated is None:
             return Outcome.MOVED, []
         broken, self._treated = self._treated.id, None
@@ -252,10 +256,15 @@ class Mission:
         total = self.settings.treatment_ms(site.severity)
         return Treatment(site.cell, site.severity, self.time_ms - self._treatment_start_ms, total)
 
-    def _look(self) -> None:
-        """See what is in view now, and remember it."""
+    def _look(self, *, changed: bool = True) -> None:
+        """See what is in view now, and remember it. `changed` is false where no victim's state has
+        changed since the last look."""
         visible = self._sight.field(self.position)
         self._explored |= visible
+        marked = visible & self._marks
+        if not changed and marked == self._seen.visible & self._marks:
+            self._seen = self._seen._replace(visible=visible)
+            return
         in_view, remembered = [], []
         for site, bit in self._site_bits:
             if visible & bit:
