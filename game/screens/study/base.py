@@ -37,6 +37,11 @@ class Frame:
         words = self.words
         return Question(words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no)
 
+    def decline_question(self) -> Question:
+        """Asks whether someone really does not want to take part."""
+        words = self.words
+        return Question(words.decline_title, words.decline_text, yes=words.yes, no=words.no)
+
 
 class FixedStage(Vertical):
     """Holds a screen's widgets, in the middle of the terminal and never larger than the study
@@ -49,11 +54,41 @@ class FixedStage(Vertical):
 
 
 class TextColumn(VerticalScroll):
-    """A page in the middle of the stage, with `below` under its text; it scrolls where a lab wrote
+    """A page in the middle of the stage, with `below` under its text; it scrolls where there is
     more than fits."""
 
     def __init__(self, page: Page, *below: Widget, wide: bool = False) -> None:
         super().__init__(heading(page), body(page), *below, classes="wide" if wide else None)
+
+    @property
+    def rows_in_view(self) -> range:
+        """Which of its rows are in view."""
+        top = round(self.scroll_y)
+        return range(top, top + self.scrollable_content_region.height)
+
+    def span(self, widget: Widget, rows: range) -> range:
+        """Where rows of a widget in it stand."""
+        top = widget.virtual_region.y
+        return range(top + rows.start, top + rows.stop)
+
+    def holds(self, widget: Widget, rows: range) -> bool:
+        """Whether rows of a widget are in view, all of them, or as many as can be."""
+        wanted, seen = self.span(widget, rows), self.rows_in_view
+        most = min(len(wanted), len(seen))
+        return len(wanted) > 0 and wanted.start >= seen.start and wanted.start + most <= seen.stop
+
+    def bring(self, widget: Widget, rows: range) -> None:
+        """Scroll as little as brings rows of a widget into view, from the first of them on."""
+        wanted, seen = self.span(widget, rows), self.rows_in_view
+        if wanted.start < seen.start or len(wanted) > len(seen):
+            self.scroll_to(y=wanted.start, animate=False, immediate=True)
+        elif wanted.stop > seen.stop:
+            self.scroll_to(y=wanted.stop - len(seen), animate=False, immediate=True)
+
+    def page(self, way: int) -> None:
+        """Scroll by as much as is in view, but for two rows."""
+        step = max(1, len(self.rows_in_view) - 2)
+        self.scroll_to(y=self.scroll_y + way * step, animate=False, immediate=True)
 
 
 class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
@@ -94,11 +129,15 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
             self.app.pop_screen()
         self.dismiss(result)
 
-    def show_keys(self, *keys: tuple[str, str]) -> None:
+    @property
+    def scrolls(self) -> bool:
+        """Whether there is more than fits."""
+        return any(column.max_scroll_y > 0 for column in self.query(TextColumn))
+
+    def show_keys(self, *keys: tuple[str, str], remark: str = "") -> None:
         """Name the keys, and those that scroll where there is more than fits."""
-        scrolls = any(column.max_scroll_y > 0 for column in self.query(TextColumn))
-        more = (("PgUp PgDn", self.frame.words.scroll),) if scrolls else ()
-        self.query_one(KeyLine).set_keys(*keys, *more)
+        more = (("PgUp PgDn", self.frame.words.scroll),) if self.scrolls else ()
+        self.query_one("#keys", KeyLine).set_keys(*keys, *more, remark=remark)
 
     @contextmanager
     def kept(self) -> Iterator[None]:

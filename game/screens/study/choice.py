@@ -5,40 +5,43 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Sequence
 from typing import ClassVar
 
+from rich.cells import cell_len
 from textual.binding import Binding, BindingType
 from textual.widgets import Static
 
 from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
+from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
 from game.study.texts import Page
 
 INDENT = 6
 
 
-def choice_rows(options: Sequence[str], chosen: int | None, columns: int) -> list[Row]:
-    """The options one below the other, wrapped; the chosen one is marked."""
+def option_rows(option: str, picked: bool, columns: int) -> list[Row]:
+    """An option, wrapped; a chosen one is marked."""
+    style = "chosen" if picked else "option"
+    lines = wrapped(option, max(10, columns - INDENT - 1)) or [""]
     rows: list[Row] = []
-    for number, option in enumerate(options):
-        picked = number == chosen
-        style = "chosen" if picked else "option"
-        lines = wrapped(option, max(10, columns - INDENT - 1)) or [""]
-        for place, line in enumerate(lines):
-            mark = (" (•)  " if picked else " ( )  ") if place == 0 else " " * INDENT
-            rows.append(((f"{mark}{line} ".ljust(columns), style),))
-        rows.append(BLANK)
-    return rows[:-1]
+    for place, line in enumerate(lines):
+        mark = (" (•)  " if picked else " ( )  ") if place == 0 else " " * INDENT
+        text = f"{mark}{line} "
+        rows.append(((text + " " * (columns - cell_len(text)), style),))
+    return rows
 
 
 class Choice(Canvas):
-    """The options, and which is chosen."""
+    """The options one below the other, and which is chosen: at first, none."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {"option", "chosen"}
 
     def __init__(self, options: Sequence[str]) -> None:
-        super().__init__(choice_rows(options, None, 0), classes="choice")
+        super().__init__(classes="choice")
         self.options = options
         self.chosen: int | None = None
+        self.spans: list[range] = []
+        """The rows of each option."""
+        self._draw()
 
     def choose(self, number: int) -> None:
         """Mark option `number`, from 0."""
@@ -46,21 +49,28 @@ class Choice(Canvas):
         self._draw()
 
     def move(self, way: int) -> None:
-        """Mark the next option; the first or last one if there is none yet."""
-        before = self.chosen if self.chosen is not None else (-1 if way > 0 else 0)
-        self.choose((before + way) % len(self.options))
+        """Mark the next option, and stay at the first and last; at first, these."""
+        last = len(self.options) - 1
+        before = self.chosen if self.chosen is not None else (-1 if way > 0 else last + 1)
+        self.choose(max(0, min(last, before + way)))
 
     def on_resize(self) -> None:
         self._draw()
 
     def _draw(self) -> None:
-        self.draw(choice_rows(self.options, self.chosen, self.size.width))
+        rows: list[Row] = []
+        self.spans = []
+        for number, option in enumerate(self.options):
+            block = option_rows(option, number == self.chosen, self.size.width)
+            self.spans.append(range(len(rows), len(rows) + len(block)))
+            rows += [*block, BLANK]
+        self.draw(rows[:-1])
 
 
 class ChoiceScreen(StudyScreen[int]):
     """A page with options; dismissed with the index of the one chosen.
 
-    `save` is called with it first, and waited for.
+    `save` is called with it first, and waited for. Every option must have been in view.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -68,6 +78,8 @@ class ChoiceScreen(StudyScreen[int]):
         Binding("down,j", "move(1)", id="choice.down", priority=True),
         *(Binding(str(number), f"pick({number})", priority=True) for number in range(1, 10)),
         Binding("enter", "confirm", id="choice.confirm", priority=True),
+        Binding("pageup", "page(-1)", id="choice.page_up", priority=True),
+        Binding("pagedown", "page(1)", id="choice.page_down", priority=True),
     ]
     DEAF_S = 0.3
 
@@ -79,15 +91,36 @@ class ChoiceScreen(StudyScreen[int]):
         *,
         question: str = "",
         save: Callable[[int], Awaitable[None]] | None = None,
+        sure: tuple[int, Question] | None = None,
     ) -> None:
-        choice = Choice(options)
+        """`sure` is an option that is only taken after this further question."""
+        self._choice = Choice(options)
         asked = [Static(question, classes="question", markup=False)] if question else []
-        super().__init__(frame, [TextColumn(page, *asked, choice), KeyLine(id="keys")])
-        self._choice = choice
+        self._column = TextColumn(page, *asked, self._choice)
+        super().__init__(frame, [self._column, KeyLine(id="keys")])
         self._save = save
+        self._sure = sure
+        self._seen: set[int] = set()
 
     def on_mount(self) -> None:
-        self.call_after_refresh(self.show_keys, ("↑ ↓", self.frame.words.choose))
+        self.watch(self._column, "scroll_y", self._look, init=False)
+        self.call_after_refresh(self._look)
+
+    def on_resize(self) -> None:
+        self.call_after_refresh(self._look)
+
+    def _look(self) -> None:
+        """Note which options have been in view, and name the keys."""
+        words, spans = self.frame.words, self._choice.spans
+        self._seen |= {n for n, span in enumerate(spans) if self._column.holds(self._choice, span)}
+        end = self._column.rows_in_view.stop
+        below = sum(self._column.span(self._choice, span).stop > end for span in spans)
+        go_on = (("Enter", words.go_on),) if self._choice.chosen is not None else ()
+        remark = words.more_below.replace("{count}", str(below)) if below else ""
+        self.show_keys(("↑ ↓", words.choose), *go_on, remark=remark)
+
+    def action_page(self, way: int) -> None:
+        self._column.page(way)
 
     def action_move(self, way: int) -> None:
         self._choice.move(way)
@@ -99,14 +132,31 @@ class ChoiceScreen(StudyScreen[int]):
             self._chosen()
 
     def _chosen(self) -> None:
-        words = self.frame.words
-        self.show_keys(("↑ ↓", words.choose), ("Enter", words.go_on))
-        self._choice.scroll_visible(animate=False)
+        choice = self._choice
+        assert choice.chosen is not None
+        self._column.bring(choice, range(len(choice.rows)))
+        self._column.bring(choice, choice.spans[choice.chosen])
+        self._look()
 
     async def action_confirm(self) -> None:
-        chosen = self._choice.chosen
+        chosen, spans = self._choice.chosen, self._choice.spans
         if chosen is None:
             return
+        unseen = [number for number in range(len(spans)) if number not in self._seen]
+        if unseen:
+            self._column.bring(self._choice, spans[unseen[0]])
+        elif not self._column.holds(self._choice, spans[chosen]):
+            self._chosen()
+        elif self._sure is not None and self._sure[0] == chosen:
+            self.app.push_screen(self._sure[1], self._was_sure)
+        else:
+            await self._take(chosen)
+
+    def _was_sure(self, sure: bool | None) -> None:
+        if sure and self._sure is not None:
+            self.finish(self._sure[0])
+
+    async def _take(self, chosen: int) -> None:
         with self.kept():
             if self._save is not None:
                 await self._save(chosen)

@@ -12,6 +12,7 @@ from html import escape
 from pathlib import Path, PurePath
 from typing import Any, ClassVar, Literal
 
+from textual.app import App
 from textual.containers import Center
 from textual.pilot import Pilot
 from textual.screen import Screen
@@ -98,7 +99,7 @@ async def _go_on(pilot: Pilot[None]) -> None:
     await pilot.pause()
 
 
-def painted(app: Program) -> list[str]:
+def painted(app: App[Any]) -> list[str]:
     """The lines in the window."""
     return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
 

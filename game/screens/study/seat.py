@@ -55,7 +55,8 @@ class ScreenParticipant:
 
     async def agree(self, page: Consent) -> bool:
         options = page.agree, page.decline
-        return await self._show(ChoiceScreen(self._frame, page, options)) == 0
+        sure = 1, self._frame.decline_question()
+        return await self._show(ChoiceScreen(self._frame, page, options, sure=sure)) == 0
 
     async def read(self, page: Page) -> None:
         if page is self._texts.lessons.walking:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from time import monotonic
 from typing import ClassVar
 
-from textual import work
+from rich.cells import cell_len
 from textual.binding import Binding, BindingType
 from textual.timer import Timer
 
 from game.screens.study.base import Frame
 from game.screens.study.sheet import SheetScreen
-from game.screens.widgets.canvas import Row
+from game.screens.widgets.canvas import Row, wrapped
 from game.study.protocol.tasks import Asked, Sheet
 from game.study.texts import Page
 
 MIDDLE = 50
-PAGE = 10
-SETTLED_S = 0.7
-"""A slider left alone for so long is an answer; also how long a second digit is waited for."""
+STEP = 10
+CURSOR = "▏"
+TYPED_S = 1.5
+"""Digits typed within so long of each other are one number."""
 
 
 def moved(value: int | None, by: int, asked: Asked) -> int:
@@ -26,38 +28,53 @@ def moved(value: int | None, by: int, asked: Asked) -> int:
     return MIDDLE if value is None else max(asked.low, min(asked.high, value + by))
 
 
-def slider_rows(asked: Asked, value: int | None, columns: int, *, active: bool) -> list[Row]:
+def slider_rows(
+    asked: Asked, value: int | None, columns: int, *, active: bool, typing: bool = False
+) -> list[Row]:
     """The question, the track with its knob, and the two anchors."""
-    low, high = asked.anchors
-    shown = "–" if value is None else str(value)
     mark, style = ("▸ ", "active") if active else ("  ", "text")
+    lines = wrapped(asked.text, max(10, columns - 2))
+    rows: list[Row] = [
+        ((mark if number == 0 else "  ", style), (line, style)) for number, line in enumerate(lines)
+    ]
     track = max(2, columns - 8)
-    head: Row = ((mark, style), (asked.text, style))
-    line: Row
+    shown = "–" if value is None else str(value)
+    number = f"{shown:>5}{CURSOR if typing else ' '}"
     if value is None:
-        line = (("  ", ""), ("─" * track, "faint"), (f"{shown:>5} ", "faint"))
+        rows.append((("  ", ""), ("─" * track, "faint"), (number, "faint")))
     else:
         at = round((value - asked.low) / (asked.high - asked.low) * (track - 1))
         knob = "knob" if active else "set"
-        line = (
-            ("  ", ""),
-            ("━" * at, knob),
-            ("●", knob),
-            ("─" * (track - 1 - at), "faint"),
-            (f"{shown:>5} ", "active" if active else "text"),
+        rows.append(
+            (
+                ("  ", ""),
+                ("━" * at, knob),
+                ("●", knob),
+                ("─" * (track - 1 - at), "faint"),
+                (number, "active" if active else "text"),
+            )
         )
-    gap = max(1, track - len(low) - len(high))
-    return [head, line, (("  ", ""), (low + " " * gap + high, "quiet"))]
+    return [*rows, *anchor_rows(asked.anchors[0], asked.anchors[1], track)]
+
+
+def anchor_rows(low: str, high: str, columns: int) -> list[Row]:
+    """The names of the ends, each under its own: on a line where they fit, else wrapped."""
+    half = columns if cell_len(low) + cell_len(high) + 2 <= columns else max(4, columns // 2 - 2)
+    rows: list[Row] = []
+    for left, right in zip_longest(wrapped(low, half), wrapped(high, half), fillvalue=""):
+        gap = " " * max(0, columns - cell_len(left) - cell_len(right))
+        rows.append((("  ", ""), (left + gap + right, "quiet")))
+    return rows
 
 
 class SlidersScreen(SheetScreen):
-    """Where a slider was left alone for a while, or another one is turned to, is recorded."""
+    """Each place a slider is moved to is recorded before it is shown there."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("right,l", "slide(1)", id="sliders.more", priority=True),
         Binding("left,h", "slide(-1)", id="sliders.less", priority=True),
-        Binding("pageup", f"slide({PAGE})", id="sliders.much_more", priority=True),
-        Binding("pagedown", f"slide(-{PAGE})", id="sliders.much_less", priority=True),
+        Binding("pageup", "leap(-1)", id="sliders.much_more", priority=True),
+        Binding("pagedown", "leap(1)", id="sliders.much_less", priority=True),
         Binding("home", "put('low')", id="sliders.least", priority=True),
         Binding("end", "put('high')", id="sliders.most", priority=True),
         Binding("up,shift+tab", "turn(-1)", id="sliders.previous", priority=True),
@@ -69,54 +86,55 @@ class SlidersScreen(SheetScreen):
 
     def __init__(self, frame: Frame, page: Page, sheet: Sheet) -> None:
         words = frame.words
-        keys = ("← →", words.move), ("PgUp PgDn", f"±{PAGE}"), ("0-9", words.number)
-        super().__init__(frame, page, sheet, slider_rows, *keys)
-        self._values = {
-            asked.item: value for asked in sheet.asked if (value := sheet.value(asked)) is not None
-        }
-        self._typed_at = 0.0
+        super().__init__(
+            frame, page, sheet, slider_rows, ("← →", words.move), ("0-9", words.number)
+        )
+        self._typed_at: float | None = None
         self._settling: Timer | None = None
 
     @property
-    def values(self) -> list[int | None]:
-        return [self._values.get(asked.item) for asked in self._sheet.asked]
+    def typing(self) -> bool:
+        return self._typed_at is not None and monotonic() - self._typed_at < TYPED_S
 
-    def action_slide(self, by: int) -> None:
-        self._put(moved(self._values.get(self.asked.item), by, self.asked))
+    def show_keys(self, *keys: tuple[str, str], remark: str = "") -> None:
+        leap = () if self.scrolls else (("PgUp PgDn", f"±{STEP}"),)
+        super().show_keys(*keys, *leap, remark=remark)
 
-    def action_put(self, end: str) -> None:
-        self._put(self.asked.low if end == "low" else self.asked.high)
+    async def action_slide(self, by: int) -> None:
+        self._typed_at = None
+        await self.answer(moved(self._sheet.value(self.asked), by, self.asked))
 
-    def action_digit(self, digit: int) -> None:
-        """Digits make a number: 4 and then 2 at once is 42."""
-        asked, before = self.asked, self._values.get(self.asked.item)
+    async def action_leap(self, way: int) -> None:
+        """Scroll; where there is nothing to scroll, move the slider a long way."""
+        if self.scrolls:
+            self.action_page(way)
+        else:
+            await self.action_slide(-way * STEP)
+
+    async def action_put(self, end: str) -> None:
+        self._typed_at = None
+        await self.answer(self.asked.low if end == "low" else self.asked.high)
+
+    async def action_digit(self, digit: int) -> None:
+        """Digits make a number: 4 and then 2 is 42."""
+        asked, before = self.asked, self._sheet.value(self.asked)
         number = digit
-        if monotonic() - self._typed_at < SETTLED_S and before is not None:
+        if self.typing and before is not None:
             number = 10 * before + digit if 10 * before + digit <= asked.high else digit
-        if asked.low <= number <= asked.high:
-            self._typed_at = monotonic()
-            self._put(number)
-
-    def _put(self, value: int) -> None:
-        self._values[self.asked.item] = value
-        self.show()
+        if not asked.low <= number <= asked.high:
+            return
+        typed_at, self._typed_at = self._typed_at, monotonic()
+        if not await self.answer(number):
+            self._typed_at = typed_at
+            return
         if self._settling is not None:
             self._settling.stop()
-        self._settling = self.set_timer(SETTLED_S, self._settle)
+        self._settling = self.set_timer(TYPED_S, self.show)
 
-    @work(group="answers")
-    async def _settle(self) -> None:
-        with self.kept():
-            await self.save()
+    def turn_to(self, number: int) -> None:
+        self._typed_at = None
+        super().turn_to(number)
 
-    async def save(self) -> None:
-        """Record every slider that stands elsewhere than was recorded."""
-        for asked in self._sheet.asked:
-            value = self._values.get(asked.item)
-            if value is not None:
-                await self._sheet.answer(asked, value)
-
-    def action_turn(self, way: int) -> None:
-        self._typed_at = 0.0
-        super().action_turn(way)
-        self._settle()
+    def action_page(self, way: int) -> None:
+        self._typed_at = None
+        super().action_page(way)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from itertools import zip_longest
 from textwrap import wrap
@@ -18,6 +19,11 @@ Run = tuple[str, str]
 Row = tuple[Run, ...]
 
 BLANK: Row = ()
+
+_WIDE = "\u1100-\u115f\u2e80-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe4f\uff01-\uff60"
+_CLOSING = "\u3001\u3002\uff0c\uff0e\uff01\uff1f\u30fc\u300d\u300f\uff09\u3011\u30fb\u2026\u3005"
+_PIECES = re.compile(rf"[{_WIDE}][{_CLOSING}]*\s*|[^\s{_WIDE}]+\s*|\s+")
+"""What stays together on a line: a wide character with the marks that may not begin one, a word."""
 
 
 def width(row: Row) -> int:
@@ -59,8 +65,28 @@ def padded(row: Row, columns: int) -> Row:
 
 
 def wrapped(text: str, columns: int) -> list[str]:
-    """A text in lines of at most `columns`; where characters take two, of half as many."""
-    return wrap(text, columns if cell_len(text) == len(text) else columns // 2)
+    """A text in lines of at most `columns`: broken at blanks, between characters that take two
+    columns, and within what is longer than a whole line."""
+    if cell_len(text) == len(text):
+        return wrap(text, columns)
+    lines, line = [], ""
+    for piece in _PIECES.findall(text):
+        if cell_len(line + piece.rstrip()) > columns and line:
+            lines.append(line.rstrip())
+            line = ""
+        line += piece if line else piece.lstrip()
+        while cell_len(line.rstrip()) > columns:
+            cut = next(
+                n for n in range(len(line), 0, -1) if cell_len(line[:n]) <= columns or n == 1
+            )
+            lines.append(line[:cut])
+            line = line[cut:]
+    return [*lines, line.rstrip()] if line.strip() else lines
+
+
+def unbroken(text: str) -> list[str]:
+    """What `wrapped` breaks only where it is longer than a whole line."""
+    return [piece.rstrip() for piece in _PIECES.findall(text) if piece.strip()]
 
 
 def beside(left: Sequence[Row], right: Sequence[Row], columns: int) -> list[Row]:

@@ -12,6 +12,7 @@ from textual.containers import Vertical, VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
+from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.howto import HowTo
 from game.screens.widgets.keyline import KeyLine
 from game.world.settings import MissionSettings
@@ -20,28 +21,64 @@ LEAST_SIZE = (80, 24)
 """Columns and rows below which nothing useful can be shown."""
 
 
+class Answers(Canvas):
+    """Two answers, each with its key; one may be chosen."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {"key", "answer", "chosen", "quiet"}
+
+    def __init__(self, yes: str, no: str) -> None:
+        super().__init__()
+        self._answers = ("y", yes), ("n", no)
+        self.chosen: int | None = None
+        self._draw()
+
+    def move(self, way: int) -> None:
+        """Choose the other answer; at first, the first or the last."""
+        before = self.chosen if self.chosen is not None else (-1 if way > 0 else 2)
+        self.chosen = max(0, min(1, before + way))
+        self._draw()
+
+    def _draw(self) -> None:
+        rows: list[Row] = []
+        for number, (key, answer) in enumerate(self._answers):
+            picked = number == self.chosen
+            mark, style = ("▸ ", "chosen") if picked else ("  ", "answer")
+            rows.append((("  ", ""), (f" {key} ", "key"), (f" {mark}{answer} ", style)))
+        self.draw([*rows, BLANK, (("  ", ""), ("↑ ↓   Enter", "quiet"))])
+
+
 class Question(ModalScreen[bool]):
-    """Asks something that is answered by y or n; Escape is no."""
+    """Asks something that is answered by y or n, or by Enter on a chosen answer, as on keyboards
+    without these letters; Escape is no."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("y,Y", "answer(True)", id="question.yes"),
         Binding("n,N,escape,q,Q,ctrl+q,ctrl+c", "answer(False)", id="question.no"),
+        Binding("up,left,shift+tab", "move(-1)", id="question.up", priority=True),
+        Binding("down,right,tab", "move(1)", id="question.down", priority=True),
+        Binding("enter", "take", id="question.take", priority=True),
     ]
 
     def __init__(self, title: str, text: str, *, yes: str = "Yes", no: str = "No") -> None:
         super().__init__()
         self._title, self._text = title, text
-        self._answers = yes, no
+        self._answers = Answers(yes, no)
 
     def compose(self) -> ComposeResult:
-        yes, no = self._answers
         with Vertical(classes="dialog"):
             yield Static(self._title, classes="title", markup=False)
             yield Static(self._text, markup=False)
-            yield KeyLine(("y", yes), ("n", no))
+            yield self._answers
 
     def action_answer(self, answer: bool) -> None:
         self.dismiss(answer)
+
+    def action_move(self, way: int) -> None:
+        self._answers.move(way)
+
+    def action_take(self) -> None:
+        if self._answers.chosen is not None:
+            self.dismiss(self._answers.chosen == 0)
 
 
 class Notice(ModalScreen[None]):
@@ -131,7 +168,7 @@ class TooSmall(ModalScreen[None]):
     """Covers everything while the terminal is too small, and goes when it is large enough."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("ctrl+q,ctrl+c", "app.leave_now", id="small.quit"),
+        Binding("q,Q,ctrl+q,ctrl+c", "app.leave_now", id="small.quit", priority=True),
     ]
 
     def __init__(self) -> None:
@@ -147,5 +184,5 @@ class TooSmall(ModalScreen[None]):
         self._text.update(
             f"The window is too small: {size.width} x {size.height}.\n"
             f"ana needs {columns} x {rows}.\n\n"
-            "Make it larger or reduce the font size to continue. Ctrl+C quits."
+            "Make it larger or reduce the font size to continue. Q or Ctrl+C quits."
         )

@@ -12,7 +12,7 @@ import time
 from collections import Counter
 from contextlib import suppress
 from fcntl import ioctl
-from inspect import CO_GENERATOR
+from inspect import CO_COROUTINE, CO_GENERATOR
 from pathlib import Path
 from random import Random
 from termios import TIOCSWINSZ
@@ -61,13 +61,17 @@ class Outcome(NamedTuple):
 def fail_after(calls: int, tell: int) -> None:
     """Raise an error at the beginning of the `calls`-th function of ours that is called from now
     on, and write its name to the descriptor `tell`."""
-    left, often = calls, Counter[CodeType]()
+    left, often, begun = calls, Counter[CodeType](), set[int]()
 
     def watch(frame: FrameType, event: str, _: Any) -> None:
         nonlocal left
         path = frame.f_code.co_filename
         if event != "call" or not path.startswith(HOME) or frame.f_code.co_flags & CO_GENERATOR:
             return  # a generator may be called by its own end, where nothing can be raised
+        if frame.f_code.co_flags & CO_COROUTINE:
+            if id(frame) in begun:
+                return  # it goes on, and what it waits for would be left behind
+            begun.add(id(frame))
         if path.endswith(SPARED) or not path.removeprefix(HOME).startswith(COUNTED):
             return
         often[frame.f_code] += 1

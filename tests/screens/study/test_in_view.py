@@ -1,0 +1,161 @@
+"""No question is answered unseen: long pages scroll, text wraps, and the active item is in view."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+from rich.cells import cell_len
+from textual.pilot import Pilot
+
+from game.journal.history import History, Step
+from game.journal.records import QuestionnaireAnswer
+from game.screens.study.base import Frame
+from game.screens.study.choice import ChoiceScreen
+from game.screens.study.likert import LikertScreen
+from game.screens.study.rehearsal import Make, _Showing, painted
+from game.screens.study.sheet import SheetScreen
+from game.screens.study.sliders import TYPED_S, SlidersScreen
+from game.study.protocol.study_session import StudySession
+from game.study.protocol.tasks import Asked, Sheet
+from game.study.study_settings import ScreenSize
+from game.study.texts import Page, shipped_texts
+
+WORDS = shipped_texts().words
+PAGE = Page(title="How was it?", body="Please answer every question.\n\n" * 4)
+GERMAN = (
+    "überhaupt nicht in der Lage, den Anweisungen der Begleitung zu folgen",
+    "jederzeit ohne jede Schwierigkeit in der Lage, den Anweisungen zu folgen",
+)
+JAPANESE = (
+    "まったくそう思わなかったし、指示の意味もよくわからなかった",
+    "とてもそう思ったし、すべての指示の意味がよくわかった",
+)
+POINTS = tuple(
+    f"{degree} dieser Aussage ganz und gar zu"
+    for degree in ("stimme", "lehne", "weiß", "ja", "nein")
+)
+
+
+class Session:
+    """As much of a session as a sheet of questions needs; `kept` are the answers recorded."""
+
+    def __init__(self) -> None:
+        self.step = Step("sliders", 1)
+        self.history = History()
+        self.study = SimpleNamespace(version="v")
+        self.kept: list[QuestionnaireAnswer] = []
+
+    def now_ms(self) -> int:
+        return 0
+
+    async def save(self, *records: QuestionnaireAnswer) -> None:
+        for record in records:
+            self.kept.append(record)
+            self.history.items[self.step, record.item] = record
+
+
+def asked(count: int, anchors: tuple[str, ...], high: int) -> tuple[Asked, ...]:
+    text = (
+        "Wie sehr haben Sie sich während der gesamten Mission von der Begleitung verstanden gefühlt"
+    )
+    return tuple(
+        Asked(f"item{n}", f"{n}. {text}, Teil {n}?", anchors, 1, high) for n in range(count)
+    )
+
+
+@asynccontextmanager
+async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
+    async with _Showing(make).run_test(size=(columns, rows)) as pilot:
+        await pilot.pause(1.1)
+        yield pilot, pilot.app.screen
+
+
+def whole(screen: SheetScreen, app: Any) -> bool:
+    """Whether all words of the active question are in the window; of words that may be broken
+    anywhere, all letters."""
+    lines = "".join("".join(line.split()) for line in painted(app))
+    question = screen.asked
+    words = [word for text in (question.text, *question.anchors) for word in text.split()]
+    return all(
+        word in lines or (ord(word[-1]) > 0x2E80 and all(letter in lines for letter in word))
+        for word in words
+    )
+
+
+@pytest.mark.parametrize("size", [(120, 40), (80, 24)])
+@pytest.mark.parametrize("anchors", [GERMAN, JAPANESE], ids=["german", "japanese"])
+async def test_every_slider_is_in_view_when_it_is_answered(
+    anchors: tuple[str, ...], size: tuple[int, int]
+) -> None:
+    session, frame = Session(), Frame(ScreenSize(columns=size[0], rows=size[1]), WORDS)
+    sheet = Sheet(cast(StudySession, session), asked(10, anchors, 100))
+    async with at(lambda: SlidersScreen(frame, PAGE, sheet), *size) as (pilot, screen):
+        for number in range(10):
+            for _ in range(3):
+                await pilot.press("4")
+                await pilot.pause(0.02)
+                if len(session.kept) > number:
+                    break
+            assert session.kept[-1].item == f"item{number}"
+            assert whole(screen, pilot.app)
+            assert all(cell_len(line) <= size[0] for line in painted(pilot.app))
+            await pilot.press("enter")
+            await pilot.pause(0.02)
+    assert [answer.item for answer in session.kept] == [f"item{n}" for n in range(10)]
+
+
+async def test_every_statement_is_in_view_when_it_is_answered() -> None:
+    session, frame = Session(), Frame(ScreenSize(), WORDS)
+    sheet = Sheet(cast(StudySession, session), asked(12, POINTS, 5))
+    async with at(lambda: LikertScreen(frame, PAGE, sheet), 120, 40) as (pilot, screen):
+        for number in range(12):
+            for _ in range(3):
+                await pilot.press("2")
+                await pilot.pause(0.02)
+                if len(session.kept) > number:
+                    break
+            assert session.kept[-1].item == f"item{number}"
+            assert whole(screen, pilot.app)
+            await pilot.press("down")
+        await pilot.press("down", "down")
+        assert screen.asked.item == "item11"
+
+
+async def test_digits_belong_together_for_a_while_and_each_is_recorded() -> None:
+    session, frame = Session(), Frame(ScreenSize(), WORDS)
+    sheet = Sheet(cast(StudySession, session), asked(2, ("low", "high"), 100))
+    async with at(lambda: SlidersScreen(frame, PAGE, sheet), 120, 40) as (pilot, _):
+        await pilot.press("8")
+        await pilot.pause(0.7 * TYPED_S)
+        await pilot.press("5")
+        await pilot.pause(TYPED_S + 0.1)
+        await pilot.press("7")
+    assert TYPED_S == 1.5
+    assert [answer.value for answer in session.kept] == [8, 85, 7]
+
+
+async def test_a_choice_has_no_wrap_around_and_all_of_it_must_have_been_seen() -> None:
+    frame = Frame(ScreenSize(columns=80, rows=24), WORDS)
+    options = tuple(f"Answer {number}: {GERMAN[0]}, {GERMAN[1]}" for number in range(8))
+    taken: list[int] = []
+
+    async def save(number: int) -> None:
+        taken.append(number)
+
+    async with at(lambda: ChoiceScreen(frame, PAGE, options, save=save), 80, 24) as (pilot, screen):
+        await pilot.press("down", "up", "up")
+        assert screen._choice.chosen == 0
+        await pilot.press("enter")
+        await pilot.pause()
+        assert taken == []
+        await pilot.press(*["down"] * 12)
+        assert screen._choice.chosen == len(options) - 1
+        await pilot.press("1")
+        await pilot.pause()
+        await pilot.press("enter")
+        await pilot.pause()
+    assert taken == [0]
