@@ -23,6 +23,7 @@ from game.journal.reader import Entry, Transcript
 from game.journal.records import (
     Allocated,
     Consented,
+    Covered,
     Declined,
     Envelope,
     Exposed,
@@ -165,6 +166,7 @@ class PhaseSpan:
     ending: StepEnding = "unfinished"
     exposure_ms: int = 0
     starts: int = 0
+    covered_ms: int = 0
 
     @property
     def broke_off(self) -> bool:
@@ -256,7 +258,7 @@ class History:
                     self._mission.note(line, record)
             case MissionStarted() | MissionAbandoned():
                 self._note_mission(step, record, line)
-            case PhaseStarted() | PhaseEnded() | Exposed():
+            case PhaseStarted() | PhaseEnded() | Exposed() | Covered():
                 self._note_phase(step, envelope.utc, record)
             case QuestionnaireAnswer() | QuizAnswer() | QuizSubmitted() | FreeText():
                 self._note_answer(step, record)
@@ -333,7 +335,7 @@ class History:
             self._mission = None
 
     def _note_phase(
-        self, step: Step, utc: str, record: PhaseStarted | PhaseEnded | Exposed
+        self, step: Step, utc: str, record: PhaseStarted | PhaseEnded | Exposed | Covered
     ) -> None:
         span = self.phases.setdefault(step, PhaseSpan(utc))
         match record:
@@ -344,6 +346,8 @@ class History:
             case Exposed():
                 self.exposure_ms = record.exposure_ms
                 span.exposure_ms = max(span.exposure_ms, record.exposure_ms)
+            case Covered():
+                span.covered_ms += record.covered_ms
             case PhaseEnded():
                 self.begun, self.exposure_ms = None, 0
                 self.endings[step] = record.ending

@@ -251,6 +251,13 @@ class Exposed(SessionRecord, frozen=True, tag="exposed"):
     exposure_ms: int
 
 
+class Covered(SessionRecord, frozen=True, tag="covered"):
+    """The window was too small to show anything for so long. Meanwhile the clock of memorising and
+    labelling stood still; that of a mission went on."""
+
+    covered_ms: int
+
+
 class PhaseEnded(SessionRecord, frozen=True, tag="phase_ended"):
     """`exposure_ms` is how long the phase was on the screen, over all segments."""
 
@@ -348,6 +355,7 @@ StudyRecord = (
     | Allocated
     | PhaseStarted
     | Exposed
+    | Covered
     | PhaseEnded
     | QuizAnswer
     | QuizSubmitted

@@ -210,6 +210,9 @@ class RoundRow(TableRow, frozen=True):
     memorise_exposure_ms: Annotated[int | None, col("How long the map was on the screen.", "ms")]
     label_exposure_ms: Annotated[int | None, col("How long the labelling was on the screen.", "ms")]
     mission_exposure_ms: Annotated[int | None, col("How long the mission was played.", "ms")]
+    mission_covered_ms: Annotated[
+        int | None, col("How long the window was too small to show the mission.", "ms")
+    ]
 
 
 class ItemRow(TableRow, frozen=True):
@@ -380,6 +383,9 @@ class PhaseRow(TableRow, frozen=True):
     round: _Round
     phase_ending: Annotated[StepEnding, col("How the phase ended, so far.")]
     exposure_ms: Annotated[int, col("How long a timed phase was on the screen.", "ms")]
+    covered_ms: Annotated[
+        int, col("How long the window was too small to show anything in it.", "ms")
+    ]
     starts: Annotated[
         int, col("How often it was started or continued; 1 if it was never interrupted.")
     ]

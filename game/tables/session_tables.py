@@ -266,7 +266,8 @@ class _Session:
                 "interrupted": any(span is not None and span.broke_off for span in timed.values()),
                 "void": void,
             }
-            | {f"{phase}_exposure_ms": _exposure(span) for phase, span in timed.items()},
+            | {f"{phase}_exposure_ms": _exposure(span) for phase, span in timed.items()}
+            | {"mission_covered_ms": _covered(timed["mission"])},
             RoundRow,
         )
 
@@ -360,6 +361,10 @@ class _Session:
 
 def _order(allocated: Allocated) -> OrderName:
     return "adaptive_first" if allocated.adaptive_first else "static_first"
+
+
+def _covered(span: PhaseSpan | None) -> int | None:
+    return None if span is None else span.covered_ms
 
 
 def _exposure(span: PhaseSpan | None) -> int | None:

@@ -14,9 +14,11 @@ from textual.geometry import Size
 from textual.screen import Screen
 
 from game.errors import AnaError, where
+from game.journal.records import Covered
 from game.screens.play.mission_screen import Failed, Finished
-from game.screens.study.base import Frame
+from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.fault import cannot_go_on
+from game.screens.study.mission_page import StudyMissionScreen
 from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits
 from game.screens.study.seat import ScreenParticipant
@@ -52,6 +54,7 @@ class StudyApp(Program, inherit_bindings=False):
         self.session: StudySession | None = None
         self.person = ScreenParticipant(self, self.frame, study.texts, study.settings.mission)
         self._lock: SessionLock | None = None
+        self._covered_at: int | None = None
 
     def on_mount(self) -> None:
         lead_out(self._note_signal, self._leave)
@@ -145,8 +148,47 @@ class StudyApp(Program, inherit_bindings=False):
         nothing_yet |= len(self.screen_stack) == 1
         if covered and enough:
             self.pop_screen()
+            self._uncover()
         elif not (covered or enough or nothing_yet):
-            self.push_screen(WindowTooSmall(self.frame))
+            self._covered_at = self.now_ms()
+            self.push_screen(WindowTooSmall(self.frame, self._cover()))
+
+    def _cover(self) -> str:
+        """Tell what is covered; returns what becomes of its clock."""
+        for screen in self.screen_stack:
+            if isinstance(screen, StudyScreen):
+                said = screen.cover()
+                if said:
+                    return said
+            elif isinstance(screen, StudyMissionScreen):
+                return self.frame.words.mission_goes_on
+        return ""
+
+    def _uncover(self) -> None:
+        """Tell what can be seen again, and record for how long it could not."""
+        for screen in self.screen_stack:
+            if isinstance(screen, StudyScreen):
+                screen.uncover()
+        if self.session is not None and self._covered_at is not None:
+            with suppress(AnaError):
+                self.session.record(Covered(self.now_ms() - self._covered_at))
+        self._covered_at = None
+
+    def now_ms(self) -> int:
+        """The session's clock; 0 before there is a session."""
+        return 0 if self.session is None else self.session.now_ms()
+
+    def action_leave_small(self) -> None:
+        """Stop taking part, without a question: there is no room for one."""
+        self._uncover()
+        for screen in reversed(self.screen_stack):
+            if isinstance(screen, StudyScreen):
+                screen.finish(None)
+                return
+            if isinstance(screen, StudyMissionScreen):
+                screen.leave_at_once()
+                return
+        self.exit()
 
 
 def run_session(study: Study, identity: Identity) -> int:

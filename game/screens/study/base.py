@@ -129,6 +129,13 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
             self.app.pop_screen()
         self.dismiss(result)
 
+    def cover(self) -> str:
+        """The window has become too small to show it; what to say of the clock meanwhile."""
+        return ""
+
+    def uncover(self) -> None:
+        """It can be seen again."""
+
     @property
     def scrolls(self) -> bool:
         """Whether there is more than fits."""

@@ -94,6 +94,13 @@ class LabelScreen(StudyScreen[bool]):
         """The room asked about."""
         return self.labelling.rooms[self._asked]
 
+    def cover(self) -> str:
+        self.labelling.exposure.cover()
+        return self.frame.words.clock_stopped
+
+    def uncover(self) -> None:
+        self.labelling.exposure.uncover()
+
     def on_mount(self) -> None:
         rooms, given = self.labelling.rooms, self.labelling.given
         self._asked = next((n for n, room in enumerate(rooms) if room.name not in given), 0)

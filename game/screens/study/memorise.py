@@ -19,6 +19,13 @@ class MemoriseScreen(StudyScreen[bool]):
         self._exposure = task.exposure
         self._line = line
 
+    def cover(self) -> str:
+        self._exposure.cover()
+        return self.frame.words.clock_stopped
+
+    def uncover(self) -> None:
+        self._exposure.uncover()
+
     def on_mount(self) -> None:
         self.call_after_refresh(self._begin)
 

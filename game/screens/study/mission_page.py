@@ -108,5 +108,11 @@ class StudyMissionScreen(MissionScreen):
     def action_help(self) -> None:
         self.app.push_screen(Reminder(self.frame, self.reminder, self.live.settings))
 
+    def leave_at_once(self) -> None:
+        """Stop taking part, without a question."""
+        while self.app.screen is not self:
+            self.app.pop_screen()
+        self._left(True)
+
     def action_leave(self) -> None:
         self.app.push_screen(self.frame.stop_question(), self._left)

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from textual import events
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
@@ -109,15 +110,23 @@ class Checks(Canvas):
 
 
 class WindowTooSmall(ModalScreen[None]):
-    """Covers everything while the window is smaller than the study's screen."""
+    """Covers everything while the window is smaller than the study's screen; `clock` says what
+    becomes of the time meanwhile. It can be left."""
 
-    def __init__(self, frame: Frame) -> None:
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("q,Q,ctrl+c,ctrl+q", "app.leave_small", id="study.small.leave", priority=True),
+    ]
+
+    def __init__(self, frame: Frame, clock: str) -> None:
         super().__init__()
         self._frame = frame
+        self._clock = clock
         self._text = Static(markup=False)
 
     def compose(self) -> ComposeResult:
         yield self._text
 
     def on_resize(self, event: events.Resize) -> None:
-        self._text.update(size_text(self._frame, event.size.width, event.size.height))
+        size = size_text(self._frame, event.size.width, event.size.height)
+        parts = size, self._clock, self._frame.words.leave_now
+        self._text.update("\n\n".join(part for part in parts if part))

@@ -24,7 +24,8 @@ class Words(TextArea):
 
 
 class ReasonScreen(StudyScreen[str]):
-    """Dismissed with what was written; Enter ends it, so it is one paragraph."""
+    """Dismissed with what was written; Enter ends it, so it is one paragraph. Too long a text stays
+    until it is shortened: nothing of it is left out."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "go_on", id="reason.go_on"),
@@ -33,12 +34,34 @@ class ReasonScreen(StudyScreen[str]):
 
     def __init__(self, frame: Frame, page: Page) -> None:
         area = Words(soft_wrap=True, show_line_numbers=False, tab_behavior="focus")
-        keys = KeyLine(("Enter", frame.words.go_on), id="keys")
+        keys = KeyLine(id="keys")
         super().__init__(frame, [TextColumn(page, area), keys])
         self._area = area
+        self._keys = keys
 
     def on_mount(self) -> None:
         self._area.focus()
+        self._show()
+
+    def on_text_area_changed(self) -> None:
+        self._show()
+
+    @property
+    def _text(self) -> str:
+        return self._area.text.strip()
+
+    @property
+    def _too_many(self) -> int:
+        return max(0, len(self._text) - MOST_LETTERS)
+
+    def _show(self) -> None:
+        words = self.frame.words
+        if self._too_many:
+            remark = words.too_long.replace("{most}", f"{MOST_LETTERS:,}")
+            self._keys.set_keys(remark=remark.replace("{count}", f"{self._too_many:,}"))
+        else:
+            self._keys.set_keys(("Enter", words.go_on))
 
     def action_go_on(self) -> None:
-        self.finish(self._area.text.strip()[:MOST_LETTERS])
+        if not self._too_many:
+            self.finish(self._text)

@@ -29,15 +29,31 @@ class Exposure:
         self._before_ms = min(before_ms, limit_ms)
         self._zero_ms: int | None = None
         self._told_ms = self._before_ms
+        self._covered_ms = 0
+        self._covered_at: int | None = None
+
+    def cover(self) -> None:
+        """Nothing of it can be seen from now on: its clock stands still."""
+        self._covered_at = self._session.now_ms()
+
+    def uncover(self) -> None:
+        """It can be seen again."""
+        if self._covered_at is not None:
+            self._covered_ms += self._session.now_ms() - self._covered_at
+            self._covered_at = None
 
     def begin(self) -> None:
         """The task is on the screen from now on."""
         self._zero_ms = self._session.now_ms()
+        self._covered_ms = 0
+        if self._covered_at is not None:
+            self._covered_at = self._zero_ms
 
     @property
     def seen_ms(self) -> int:
         """How long it has been on the screen, at most the limit."""
-        since = 0 if self._zero_ms is None else self._session.now_ms() - self._zero_ms
+        now_ms = self._session.now_ms() if self._covered_at is None else self._covered_at
+        since = 0 if self._zero_ms is None else max(0, now_ms - self._zero_ms - self._covered_ms)
         return min(self.limit_ms, self._before_ms + since)
 
     @property

@@ -11,13 +11,17 @@ from typing import Any
 
 import pytest
 from textual.pilot import Pilot
+from textual.screen import Screen
+from textual.widgets import TextArea
 
 from game.journal.history import Step
 from game.journal.records import (
+    Covered,
     Exposed,
     FreeText,
     MissionAbandoned,
     Paused,
+    Phase,
     PhaseEnded,
     PreferenceGiven,
     Preflighted,
@@ -37,11 +41,12 @@ from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import Reminder, StudyMissionScreen
 from game.screens.study.pages import PageScreen, Signs
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall
-from game.screens.study.reason import ReasonScreen
+from game.screens.study.reason import MOST_LETTERS, ReasonScreen
 from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.dialogs import Question
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
+from game.tables.session_tables import session_tables
 from tests.screens.pilots import painted, until
 from tests.study.people import P01, journal_of, rewind, small_study
 
@@ -173,6 +178,81 @@ async def test_a_small_window_is_asked_to_grow(study: Study) -> None:
         await pilot.resize_terminal(140, 50)
         assert await until(pilot, SlidersScreen) is sliders
     assert not records(study, QuestionnaireAnswer, "sliders")
+
+
+async def test_the_clock_of_the_map_stands_still_while_nothing_can_be_seen(study: Study) -> None:
+    async with at(study, Step("memorise", 2)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        memorise = await until(pilot, MemoriseScreen)
+        await pilot.resize_terminal(100, 30)
+        await until(pilot, WindowTooSmall)
+        assert study.texts.words.clock_stopped in painted(pilot.app.screen)
+        await pilot.pause(6.0)
+        await pilot.resize_terminal(*SIZE)
+        assert await until(pilot, MemoriseScreen) is memorise
+        await until(pilot, PageScreen)
+    (ended,) = records(study, PhaseEnded, "memorise", segment=1)
+    assert ended == PhaseEnded("completed", 5_000)
+    (covered,) = records(study, Covered, "memorise", segment=1)
+    assert covered.covered_ms >= 6_000
+
+
+async def test_labelling_stands_still_too(study: Study) -> None:
+    async with at(study, Step("label", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        label = await until(pilot, LabelScreen)
+        await pilot.resize_terminal(100, 30)
+        await until(pilot, WindowTooSmall)
+        before = label.labelling.exposure.seen_ms
+        await pilot.pause(0.5)
+        assert label.labelling.exposure.seen_ms == before
+        await pilot.resize_terminal(*SIZE)
+        await until(pilot, LabelScreen)
+        await pilot.pause(0.3)
+        assert label.labelling.exposure.seen_ms > before
+
+
+async def test_a_mission_goes_on_unseen_and_the_tables_say_for_how_long(study: Study) -> None:
+    async with at(study, Step("mission", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        await until(pilot, StudyMissionScreen)
+        await pilot.resize_terminal(100, 30)
+        await until(pilot, WindowTooSmall)
+        assert study.texts.words.mission_goes_on in painted(pilot.app.screen)
+        await pilot.pause(1.0)
+        await pilot.resize_terminal(*SIZE)
+        await until(pilot, SlidersScreen)
+    (ended,) = records(study, PhaseEnded, "mission", segment=1)
+    assert ended == PhaseEnded("completed", 6_000)
+    (covered,) = records(study, Covered, "mission", segment=1)
+    assert 1_000 <= covered.covered_ms < 6_000
+    rows = session_tables(journal_of(study))
+    assert rows.rounds[0].mission_covered_ms == covered.covered_ms
+
+
+@pytest.mark.parametrize("phase", ["sliders", "memorise", "mission"])
+async def test_a_window_too_small_can_be_left(study: Study, phase: Phase) -> None:
+    async with at(study, Step(phase, 1)) as pilot:
+        if phase != "sliders":
+            await until(pilot, PageScreen)
+            await pilot.press("enter")
+        kinds: dict[Phase, type[Screen[Any]]] = {
+            "sliders": SlidersScreen,
+            "memorise": MemoriseScreen,
+        }
+        await until(pilot, kinds.get(phase, StudyMissionScreen))
+        await pilot.resize_terminal(60, 20)
+        await until(pilot, WindowTooSmall)
+        assert study.texts.words.leave_now in painted(pilot.app.screen)
+        await pilot.press("q")
+        await pilot.pause(0.2)
+        await until(pilot, WindowTooSmall)
+        await pilot.press("q")
+        await closed(pilot)
+    assert records(study, SessionEnded) == [SessionEnded("quit")]
 
 
 async def test_coming_back_in_a_small_window(study: Study) -> None:
@@ -382,6 +462,23 @@ async def test_preference_reason_and_the_end(study: Study) -> None:
         await closed(pilot)
     assert records(study, PreferenceGiven, segment=1)[0].preferred_round == 2
     assert records(study, FreeText, segment=1)[0].answer == "no q"
+
+
+async def test_too_long_a_reason_is_said_and_nothing_of_it_is_cut(study: Study) -> None:
+    async with at(study, Step("preference")) as pilot:
+        await until(pilot, ChoiceScreen)
+        await pilot.press("1", "enter")
+        reason = await until(pilot, ReasonScreen)
+        area = reason.query_one(TextArea)
+        area.load_text("a" * MOST_LETTERS)
+        area.move_cursor((0, MOST_LETTERS))
+        await pilot.press("b", "enter")
+        assert pilot.app.screen is reason
+        assert "2,000" in painted(reason)
+        assert "Too many: 1." in painted(reason)
+        await pilot.press("backspace", "enter")
+        await until(pilot, PageScreen)
+    assert records(study, FreeText, segment=1)[0].answer == "a" * MOST_LETTERS
 
 
 async def test_a_full_disk_is_told_and_nothing_goes_on(
