@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
@@ -10,11 +9,9 @@ from hashlib import sha256
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import Any
 
-import msgspec
-
-from game.errors import AnaError, choose_from, did_you_mean
+from game.errors import AnaError, choose_from
 from game.rescuers.person.parameters import LIMITS, SIGNED, SPREAD, Population, Traits
 
 ENDING = ".toml"
@@ -25,15 +22,13 @@ class WorldError(AnaError):
     """A file of people cannot be used as it is."""
 
 
-class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A world as it is written. `typical` and `spread` hold what differs from the default."""
-
-    about: str
-    typical: dict[str, float] = msgspec.field(default_factory=dict)
-    spread: dict[str, float] = msgspec.field(default_factory=dict)
-    effect: float = 1.0
-    noise: float = 9.0
-    leaving: Annotated[float, msgspec.Meta(ge=0, le=1)] = 0.0
+NUMBERS: Mapping[str, tuple[float, float]] = {
+    "effect": (0, 10),
+    "noise": (0, 100),
+    "leaving": (0, 1),
+}
+"""What a world says of its people as a whole, and between which numbers."""
+TABLES = ("typical", "spread")
 
 
 def world(name: str) -> Population:
@@ -54,44 +49,59 @@ def world(name: str) -> Population:
         digest = sha256(text.encode()).hexdigest()[:8]
         return parse_world(f"{path.stem} {digest}", text, name)
     hint = choose_from(name, POPULATIONS, f", or give a file whose name ends in {ENDING}")
-    raise WorldError(f"there is no world '{name}'", place="--world", hint=hint)
+    raise WorldError(f"there is no world '{name}'", hint=hint)
 
 
 def parse_world(name: str, text: str, place: str) -> Population:
     """The world that `text` describes. Raises WorldError, naming `place` and the key."""
     try:
-        file = msgspec.convert(tomllib.loads(text), _File)
-    except tomllib.TOMLDecodeError as error:
+        tree = tomllib.loads(text)
+    except ValueError as error:
         raise WorldError(f"this is not TOML: {error}", place=place) from error
-    except msgspec.ValidationError as error:
-        unknown = re.search(r"unknown field `(\w+)`", str(error))
-        hint = did_you_mean(unknown[1], _File.__struct_fields__) if unknown else ""
-        raise WorldError(str(error), place=place, hint=hint) from error
+    keys = ("about", *NUMBERS, *TABLES)
+    for key in tree:
+        if key not in keys:
+            raise WorldError(f"there is no key {key}", place=place, hint=choose_from(key, keys))
+    about = tree.get("about")
+    if not isinstance(about, str) or not about.strip():
+        raise WorldError(
+            "about is missing", place=place, hint='Say in a line who they are: about = "..."'
+        )
+    numbers = {
+        key: _number(key, tree[key], low, high, place)
+        for key, (low, high) in NUMBERS.items()
+        if key in tree
+    }
     return Population(
         name,
-        typical=_changed(Traits(), file.typical, f"{place}, typical"),
-        spread=_changed(SPREAD, file.spread, f"{place}, spread"),
-        effect=file.effect,
-        noise=file.noise,
-        leaving=file.leaving,
+        typical=_changed(Traits(), tree.get("typical", {}), f"{place}, typical", MAY_BE_NEGATIVE),
+        spread=_changed(SPREAD, tree.get("spread", {}), f"{place}, spread", ()),
+        **numbers,
     )
 
 
-def _changed(traits: Traits, changes: Mapping[str, float], place: str) -> Traits:
+def _changed(traits: Traits, changes: object, place: str, signed: Sequence[str]) -> Traits:
+    """`traits` with the numbers of a table; those that are `signed` may be negative."""
+    if not isinstance(changes, Mapping):
+        raise WorldError("this must be a table of traits", place=place)
     names = [trait.name for trait in fields(Traits)]
+    known: dict[str, Any] = {}
     for name, value in changes.items():
         if name not in names:
             raise WorldError(
                 f"there is no trait {name}", place=place, hint=choose_from(name, names)
             )
         limit = getattr(LIMITS, name)
-        low = -limit if name in MAY_BE_NEGATIVE else 0.0
-        if not low <= value <= limit:
-            raise WorldError(
-                f"{name} must be between {low:g} and {limit:g}, not {value:g}", place=place
-            )
-    known: dict[str, Any] = dict(changes)
+        known[name] = _number(name, value, -limit if name in signed else 0, limit, place)
     return replace(traits, **known)
+
+
+def _number(name: str, value: object, low: float, high: float, place: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise WorldError(f"{name} must be a number, not {value!r}", place=place)
+    if not low <= value <= high:
+        raise WorldError(f"{name} must be between {low:g} and {high:g}, not {value}", place=place)
+    return float(value)
 
 
 def _shipped() -> Mapping[str, Population]:
