@@ -1,19 +1,20 @@
-"""Reads one long CSV (a row a participant and instructor) and a CSV of quiz scores.
+"""Reads one table of a study, long (a row a participant and instructor) or wide (a row a
+participant), and a table of quiz scores.
 
 Cells are read as text and converted here, so that a complaint can name file, line and column, and
 so that only the listed marks, never a participant's name, count as missing.
 """
 
-import math
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
 from analysis.sources.absent import SourceError
-from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES, ORDERS
+from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS, MENTAL_STATES, ORDERS
 from analysis.sources.frames import StudyData, make_study
+from analysis.sources.texttable import TextTable, is_missing, read_table
 
-MISSING = frozenset({"", "na", "nan", "n/a", "null", "none", "."})
 MEASURED = ("victims", *MENTAL_STATES, *LIKERT_ITEMS)
 NEEDED = ("participant", "complexity", "adaptivity", *MEASURED)
 #: Columns that a source may have besides: (name, is a number). One value a participant.
@@ -25,18 +26,21 @@ PERSON_EXTRAS = (
     ("preferred_instructor", False),
 )
 ROUND_EXTRAS = ("building",)
+NUMBERS = (*MEASURED, *(name for name, is_number in PERSON_EXTRAS if is_number))
 TRUE_WORDS = frozenset({"true", "yes", "1"})
 FALSE_WORDS = frozenset({"false", "no", "0"})
 PREFERRED = ("static", "adaptive", "neither")
 
 
 def read_long_csv(path: Path, quiz: Path | None = None) -> StudyData:
-    """Read a long CSV, and the quiz scores if given, into tidy tables.
+    """Read a table of a study, and the quiz scores if given, into tidy tables.
 
     The `knowledge` column may be left out where `quiz` is given: groups are then formed from the
     scores. Raises SourceError naming file, line, column and a hint.
     """
-    text = _read_text_table(path, NEEDED)
+    table = _long(read_table(path))
+    table.needs(NEEDED)
+    text = table.cells
     if "knowledge" not in text.columns and quiz is None:
         raise SourceError(
             f"{path.name}: no column 'knowledge', and no quiz scores to form the groups from; "
@@ -44,73 +48,64 @@ def read_long_csv(path: Path, quiz: Path | None = None) -> StudyData:
         )
     rounds = text[["participant", "adaptivity"]].copy()
     for column in MEASURED:
-        rounds[column] = _numbers(text, column, path)
+        rounds[column] = table.numbers(column, NUMBERS)
     for column in ROUND_EXTRAS:
         if column in text.columns:
-            rounds[column] = text[column].where(~text[column].map(_is_missing))
-    participants = _one_row_a_person(text, path)
-    notes = _unused(text)
+            rounds[column] = text[column].where(~text[column].map(is_missing))
+    participants = _one_row_a_person(table)
+    notes = [*table.notes, *_unused(text)]
     if quiz is not None:
-        scores = _read_quiz(quiz)
+        scores, more = _read_quiz(quiz)
         participants = participants.join(scores)
-        notes += _unmatched(participants, scores)
-    study = make_study(participants, rounds, label=path.name, simulated=_simulated(text, path))
+        notes += [*more, *_unmatched(participants, scores)]
+    study = make_study(participants, rounds, label=path.name, simulated=_simulated(table))
     return study.noted(*notes)
 
 
-def _read_text_table(path: Path, needed: tuple[str, ...]) -> pd.DataFrame:
-    """All cells as stripped text; index: the line in the file."""
-    try:
-        table = pd.read_csv(
-            path, dtype=str, keep_default_na=False, encoding="utf-8-sig", skip_blank_lines=False
-        )
-    except FileNotFoundError as error:
-        raise SourceError(f"{path}: there is no such file") from error
-    except (pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as error:
-        raise SourceError(f"{path.name}: this is not a CSV table: {error}") from error
-    table.columns = table.columns.str.strip()
-    for column in table.columns:
-        table[column] = table[column].fillna("").str.strip()
-    table.index = pd.RangeIndex(2, 2 + len(table))
-    table = table[(table != "").any(axis=1)]
-    missing = [column for column in needed if column not in table.columns]
-    if missing:
+def _long(table: TextTable) -> TextTable:
+    """A wide table (`engagement_static`, `engagement_adaptive`, ...) as a long one.
+
+    Raises SourceError where a measured column is there for one round alone.
+    """
+    text = table.cells
+    in_rounds = {
+        column: [f"{column}_{name}" for name in ADAPTIVITY] for column in (*MEASURED, *ROUND_EXTRAS)
+    }
+    there = {
+        column: [name in text.columns for name in names] for column, names in in_rounds.items()
+    }
+    if "adaptivity" in text.columns or not any(map(any, there.values())):
+        return table
+    lone = [
+        name
+        for column, names in in_rounds.items()
+        for name, found in zip(names, there[column], strict=True)
+        if not found and (any(there[column]) or column in MEASURED)
+    ]
+    if lone:
         raise SourceError(
-            f"{path.name}: line 1: no column {', '.join(map(repr, missing))}; "
-            f"the header must have {', '.join(needed)}"
+            f"{table.name}: a row a participant, but no column {', '.join(map(repr, lone))}; each "
+            "measure needs one for either round"
         )
-    if table.empty:
-        raise SourceError(f"{path.name}: a header and no rows; nothing can be analysed")
-    nameless = table.index[table["participant"] == ""]
-    if len(nameless):
-        raise SourceError(f"{path.name}: line {nameless[0]}: the participant is not named")
-    return table
+    repeated = text.index[text["participant"].duplicated()]
+    if len(repeated):
+        raise SourceError(
+            f"{table.at(repeated[0])}: participant {text.loc[repeated[0], 'participant']} has a "
+            "row already; keep one"
+        )
+    wide = [name for column, names in in_rounds.items() if all(there[column]) for name in names]
+    parts = []
+    for at, adaptivity in enumerate(ADAPTIVITY):
+        part = text.drop(columns=wide).assign(adaptivity=adaptivity)
+        for column, names in in_rounds.items():
+            if all(there[column]):
+                part[column] = text[names[at]]
+        parts.append(part)
+    return replace(table, cells=pd.concat(parts))
 
 
-def _is_missing(cell: str) -> bool:
-    return cell.lower() in MISSING
-
-
-def _numbers(text: pd.DataFrame, column: str, path: Path) -> pd.Series:
-    def number(line: object, cell: str) -> float:
-        if _is_missing(cell):
-            return math.nan
-        try:
-            value = float(cell)
-        except ValueError:
-            value = math.inf
-        if not math.isfinite(value):
-            raise SourceError(
-                f"{path.name}: line {line}: {column} is {cell!r}; it must be a number, or empty "
-                "where no answer was given"
-            )
-        return value
-
-    cells = [number(line, cell) for line, cell in text[column].items()]
-    return pd.Series(cells, index=text.index, dtype=float)
-
-
-def _one_row_a_person(text: pd.DataFrame, path: Path) -> pd.DataFrame:
+def _one_row_a_person(table: TextTable) -> pd.DataFrame:
+    text = table.cells
     columns = ["complexity"]
     if "knowledge" in text.columns:
         columns.append("knowledge")
@@ -121,32 +116,35 @@ def _one_row_a_person(text: pd.DataFrame, path: Path) -> pd.DataFrame:
         if len(torn):
             lines = text.index[text["participant"] == torn[0]]
             raise SourceError(
-                f"{path.name}: lines {', '.join(map(str, lines))}: {column} of participant "
-                f"{torn[0]} differs between rows; it is one value a participant"
+                f"{table.at(*lines)}: {column} of participant {torn[0]} differs between rows; "
+                "it is one value a participant"
             )
     converted = text[["participant", *columns]].copy()
     for column in columns:
         if dict(PERSON_EXTRAS).get(column, False):
-            converted[column] = _numbers(text, column, path)
+            converted[column] = table.numbers(column, NUMBERS)
         else:
-            converted[column] = text[column].astype(object).where(~text[column].map(_is_missing))
-    _check_words(converted, "order", ORDERS, path)
-    _check_words(converted, "preferred_instructor", PREFERRED, path)
+            converted[column] = text[column].astype(object).where(~text[column].map(is_missing))
+    _check_words(table, converted, "order", ORDERS)
+    _check_words(table, converted, "preferred_instructor", PREFERRED)
     return converted.drop_duplicates("participant").set_index("participant")
 
 
-def _check_words(table: pd.DataFrame, column: str, words: tuple[str, ...], path: Path) -> None:
-    if column not in table.columns:
+def _check_words(
+    table: TextTable, converted: pd.DataFrame, column: str, words: tuple[str, ...]
+) -> None:
+    if column not in converted.columns:
         return
-    for line, value in table[column].dropna().items():
+    for line, value in converted[column].dropna().items():
         if value not in words:
             raise SourceError(
-                f"{path.name}: line {line}: {column} is {value!r}; "
+                f"{table.at(line)}: {column} is {value!r}; "
                 f"it must be one of {', '.join(words)}, or empty"
             )
 
 
-def _simulated(text: pd.DataFrame, path: Path) -> bool:
+def _simulated(table: TextTable) -> bool:
+    text = table.cells
     if "simulated" not in text.columns:
         return False
     kinds = set(text["simulated"].str.lower())
@@ -155,24 +153,28 @@ def _simulated(text: pd.DataFrame, path: Path) -> bool:
     if kinds <= FALSE_WORDS:
         return False
     raise SourceError(
-        f"{path.name}: column 'simulated' has {', '.join(sorted(map(repr, kinds)))}; real and "
+        f"{table.name}: column 'simulated' has {', '.join(sorted(map(repr, kinds)))}; real and "
         "simulated sessions are analysed apart: split the file"
     )
 
 
-def _read_quiz(path: Path) -> pd.DataFrame:
-    text = _read_text_table(path, ("participant", "quiz_static"))
+def _read_quiz(path: Path) -> tuple[pd.DataFrame, tuple[str, ...]]:
+    """The scores by participant, and what to note about their file."""
+    table = read_table(path)
+    table.needs(("participant", "quiz_static"))
+    text = table.cells
     repeated = text.index[text["participant"].duplicated()]
     if len(repeated):
         raise SourceError(
-            f"{path.name}: line {repeated[0]}: participant "
-            f"{text.loc[repeated[0], 'participant']} has a row already; keep one"
+            f"{table.at(repeated[0])}: participant {text.loc[repeated[0], 'participant']} has a "
+            "row already; keep one"
         )
-    scores = _numbers(text, "quiz_static", path)
+    scores = table.numbers("quiz_static", ("quiz_static",))
     negative = scores.index[scores < 0]
     if len(negative):
-        raise SourceError(f"{path.name}: line {negative[0]}: a score cannot be below 0")
-    return pd.DataFrame({"quiz_static": scores.to_numpy()}, index=text["participant"])
+        raise SourceError(f"{table.at(negative[0])}: a score cannot be below 0")
+    frame = pd.DataFrame({"quiz_static": scores.to_numpy()}, index=text["participant"])
+    return frame, tuple(f"{path.name}: {note}" for note in table.notes)
 
 
 def _unused(text: pd.DataFrame) -> list[str]:
