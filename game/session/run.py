@@ -19,10 +19,28 @@ from game.world.observation import Observation
 Recorder = Callable[[Sequence[RunRecord]], None]
 
 
-class _Pending(NamedTuple):
+HELD_MS = 80
+"""Presses less than this apart come from a key that is held, or from one that corrects another."""
+MOST_WAITING = 3
+
+
+class _Waiting(NamedTuple):
     action: Action
-    due_ms: int
     pressed_ms: int
+
+
+def waiting_after(
+    waiting: tuple[_Waiting, ...], pressed: _Waiting, *, held: bool
+) -> tuple[_Waiting, ...]:
+    """What waits after another press.
+
+    Single taps queue, so that each is a step. With `held` (the press before was less than `HELD_MS`
+    ago) the same move adds nothing to what waits, so that letting go of a key stops the rescuer
+    within one move, and another move replaces all of it.
+    """
+    if held and all(it.action is pressed.action for it in waiting):
+        return (*waiting[:-1], pressed)
+    return (pressed,) if held else (*waiting[: MOST_WAITING - 1], pressed)
 
 
 class MissionRun:
@@ -39,9 +57,10 @@ class MissionRun:
         self._record = record
         self._happened: list[RunRecord] = []
         self._next_move_ms = 0
-        self._pending: _Pending | None = None
         self._due: Due | None = None
         """What is next due, until something happens."""
+        self._waiting: tuple[_Waiting, ...] = ()
+        self._pressed_ms: int | None = None
 
     @property
     def ended(self) -> bool:
@@ -53,7 +72,7 @@ class MissionRun:
         if self.ended:
             return None
         due_ms = self._next_due().at_ms
-        return due_ms if self._pending is None else min(due_ms, self._pending.due_ms)
+        return min(due_ms, self._next_move_ms) if self._waiting else due_ms
 
     def begin(self) -> None:
         """Let the coach give its first instruction. Call once, at 0 ms."""
@@ -65,15 +84,20 @@ class MissionRun:
         return self.mission.observation(self.coach.guidance)
 
     def press(self, action: Action, now_ms: int) -> None:
-        """A key was pressed. A move that comes before the pace allows waits for its time and
-        replaces any move still waiting; triage acts at once."""
+        """A key was pressed. A move that comes before the pace allows waits for its time (see
+        `waiting_after`); triage acts at once, and what waits is forgotten."""
         with self._recording():
             self._advance(now_ms)
-            self._pending = None
-            if action is Action.TRIAGE or now_ms >= self._next_move_ms:
+            if action is Action.TRIAGE:
+                self._waiting = ()
+                self._act(action, now_ms, now_ms)
+                return
+            held = self._pressed_ms is not None and now_ms - self._pressed_ms < HELD_MS
+            self._pressed_ms = now_ms
+            if now_ms >= self._next_move_ms:
                 self._act(action, now_ms, now_ms)
             else:
-                self._pending = _Pending(action, self._next_move_ms, now_ms)
+                self._waiting = waiting_after(self._waiting, _Waiting(action, now_ms), held=held)
 
     def advance(self, now_ms: int) -> None:
         """Make everything happen that is due by `now_ms`, each at its own time."""
@@ -107,11 +131,12 @@ class MissionRun:
 
     def _advance(self, now_ms: int) -> None:
         while not self.ended:
-            pending = self._pending
-            if pending is not None and pending.due_ms <= now_ms:
-                self._fire_until(pending.due_ms)
-                self._pending = None
-                self._act(pending.action, pending.due_ms, pending.pressed_ms)
+            due_ms = self._next_move_ms
+            if self._waiting and due_ms <= now_ms:
+                self._fire_until(due_ms)
+                (action, pressed_ms), *rest = self._waiting
+                self._waiting = tuple(rest)
+                self._act(action, due_ms, pressed_ms)
             else:
                 self._fire_until(now_ms)
                 break

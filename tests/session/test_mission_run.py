@@ -63,6 +63,75 @@ def test_a_held_key_walks_at_the_pace_and_stops_within_one_move() -> None:
     assert times == [0, 200, 400, 600, 800, 1_000]
 
 
+@given(st.lists(st.integers(80, 400), min_size=1, max_size=12), st.integers(5, 12))
+def test_single_taps_are_steps_as_long_as_three_wait_at_most(gaps: list[int], pace: int) -> None:
+    run, records = begun(MissionSettings(moves_per_second=pace))
+    pressed, waiting, next_ms = [0], 0, run.mission.settings.pace_ms
+    for gap in gaps:
+        pressed.append(pressed[-1] + gap)
+    expected = 0
+    for at_ms in pressed:
+        while waiting and next_ms <= at_ms:
+            waiting, next_ms = waiting - 1, next_ms + run.mission.settings.pace_ms
+        if at_ms == 0 or at_ms >= next_ms:
+            next_ms, expected = at_ms + run.mission.settings.pace_ms, expected + 1
+        elif waiting < 3:
+            waiting, expected = waiting + 1, expected + 1
+        run.press(Action.EAST, at_ms)
+    run.advance(END)
+    assert len(acts(records)) == expected
+
+
+@pytest.mark.parametrize("gap_ms", [80, 100, 120, 199, 200, 300])
+def test_five_taps_are_five_steps(gap_ms: int) -> None:
+    run, records = begun()
+    for number in range(5):
+        run.press(Action.EAST, number * gap_ms)
+    run.advance(5_000)
+    assert len(acts(records)) == 5
+
+
+def test_six_taps_in_600_ms_are_six_steps() -> None:
+    run, records = begun()
+    for number in range(6):
+        run.press(Action.EAST, number * 120)
+    run.advance(5_000)
+    assert [at_ms for at_ms, _, _ in acts(records)] == [0, 200, 400, 600, 800, 1_000]
+
+
+@given(st.integers(10, 79), st.integers(1, 60), st.integers(5, 12))
+def test_a_held_key_stops_within_one_move(gap_ms: int, repeats: int, pace: int) -> None:
+    run, records = begun(MissionSettings(moves_per_second=pace))
+    for number in range(repeats + 1):
+        run.press(Action.EAST, number * gap_ms)
+    before = len(acts(records))
+    run.advance(END)
+    assert len(acts(records)) - before <= 1
+
+
+@given(st.lists(st.integers(80, 120), max_size=4), st.integers(1, 79))
+def test_another_direction_at_once_replaces_all_that_waits(taps: list[int], gap_ms: int) -> None:
+    run, records = begun(MissionSettings(moves_per_second=1))
+    now_ms = 0
+    run.press(Action.EAST, now_ms)
+    for tap in taps:
+        now_ms += tap
+        run.press(Action.EAST, now_ms)
+    now_ms += gap_ms
+    run.press(Action.SOUTH, now_ms)
+    run.advance(END)
+    assert [action for _, _, action in acts(records)] == [Action.EAST, Action.SOUTH]
+
+
+def test_treating_forgets_what_waits() -> None:
+    run, records = begun()
+    for at_ms in (0, 100, 200, 300):
+        run.press(Action.EAST, at_ms)
+    run.press(Action.TRIAGE, 310)
+    run.advance(2_000)
+    assert [action for _, _, action in acts(records)] == [Action.EAST] * 2 + [Action.TRIAGE]
+
+
 def test_things_due_at_the_same_time_happen_in_a_fixed_order() -> None:
     settings = MissionSettings(duration_ms=3_500, red_expiry_ms=3_500, treat_blue_ms=3_500)
     run, records = begun(settings)

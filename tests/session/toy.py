@@ -156,8 +156,8 @@ Keys = Sequence[tuple[int, Action]]
 
 WALK: Keys = (
     *[(300, Action.TRIAGE), (3_300, Action.NORTH), (210, Action.SOUTH)],
-    *[(90, Action.EAST), (90, Action.EAST), (90, Action.EAST)],
-    *[(210, Action.EAST)] * 6,
+    *[(90, Action.EAST), (90, Action.EAST), (50, Action.EAST), (250, Action.EAST)],
+    *[(210, Action.EAST)] * 5,
     *[(300, Action.NORTH), (400, Action.WEST), (100, Action.TRIAGE), (900, Action.TRIAGE)],
     *[(1_000, Action.EAST), (400, Action.SOUTH), (300, Action.EAST), (210, Action.EAST)],
     *[(210, Action.SOUTH), (210, Action.NORTH), (400, Action.TRIAGE)],
