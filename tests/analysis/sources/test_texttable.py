@@ -231,7 +231,7 @@ def test_a_formula_never_computed_is_no_missing_answer(table: pd.DataFrame, tmp_
 def widened(table: pd.DataFrame) -> pd.DataFrame:
     within = [*MEASURED, "building"]
     wide = table.pivot(index="participant", columns="adaptivity", values=within)
-    wide.columns = pd.Index([f"{measure}_{adaptivity}" for measure, adaptivity in wide.columns])
+    wide.columns = pd.Index(["_".join(pair) for pair in wide.columns.to_flat_index()])
     people = table.drop(columns=[*within, "adaptivity"]).drop_duplicates("participant")
     return people.merge(wide.reset_index(), on="participant")
 
