@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import click
 import pandas as pd
@@ -85,6 +85,7 @@ def command(
         worlds = [] if hypercube else WORLDS.split(",")
     if not (coaches and buildings and (worlds or hypercube)):
         raise click.UsageError("there must be a coach, a building and a world to compare")
+    _can_be_written(out, figures)
     people = people or (PEOPLE_A_DRAW if hypercube else PEOPLE)
     cube = qmc.LatinHypercube(CUBE_AXES, rng=seed).random(hypercube or 0)
     rows = game.trials(
@@ -134,12 +135,32 @@ def command(
         _draw(figures, parts)
 
 
+def _can_be_written(out: Path | None, figures: Path | None) -> None:
+    """Raise AnaError now rather than after all missions for a place that cannot be written to."""
+    if out is not None:
+        there = out.exists()
+        _write(out, "", "a")
+        if not there:
+            out.unlink()
+    if figures is not None:
+        _make(figures)
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise AnaError(
+            f"the figure cannot be written ({error.strerror})", place=str(folder)
+        ) from error
+
+
 def _draw(folder: Path, parts: list[Any]) -> None:
+    _make(folder)
     for number, part in enumerate(parts):
         drawn = comparison_figure(part)
         name = drawn.name if number == 0 else f"{drawn.name}-hypercube"
         try:
-            folder.mkdir(parents=True, exist_ok=True)
             drawn.figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
         except OSError as error:
             raise AnaError(
@@ -147,9 +168,10 @@ def _draw(folder: Path, parts: list[Any]) -> None:
             ) from error
 
 
-def _write(path: Path, text: str) -> None:
+def _write(path: Path, text: str, mode: Literal["a", "w"] = "w") -> None:
     try:
-        path.write_text(text, encoding="utf-8")
+        with path.open(mode, encoding="utf-8") as file:
+            file.write(text)
     except OSError as error:
         raise AnaError(
             f"the numbers cannot be written ({error.strerror})",

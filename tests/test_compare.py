@@ -127,3 +127,25 @@ def test_what_cannot_be_compared_is_refused(
 ) -> None:
     assert main(["compare", option, value, "--jobs", "1"]) == 2
     assert named in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--json", "--figures"])
+def test_a_place_that_cannot_be_written_to_is_refused_before_anybody_plays(
+    option: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("game.simulation.comparison.play", lambda *_: pytest.fail("they played"))
+    (tmp_path / "file").write_text("kept", encoding="utf-8")
+    place = str(tmp_path / "file" / "out")
+    assert main(["compare", "--people", "1", "--jobs", "1", option, place]) == 2
+    assert place in capsys.readouterr().err
+    assert (tmp_path / "file").read_text(encoding="utf-8") == "kept"
+
+
+def test_earlier_numbers_are_kept_when_the_comparison_is_refused(tmp_path: Path) -> None:
+    out = tmp_path / "out.json"
+    out.write_text("earlier", encoding="utf-8")
+    assert main(["compare", "--coaches", "anna", "--json", str(out)]) == 2
+    assert out.read_text(encoding="utf-8") == "earlier"
