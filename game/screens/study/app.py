@@ -127,6 +127,7 @@ class StudyApp(Program, inherit_bindings=False):
         self.exit(return_code=status)
 
     def on_finished(self, message: Finished) -> None:
+        self._note_covered()
         self.person.mission_ended(message.complete)
 
     def on_failed(self, message: Failed) -> None:
@@ -150,6 +151,7 @@ class StudyApp(Program, inherit_bindings=False):
             self.pop_screen()
             self._uncover()
         elif not (covered or enough or nothing_yet):
+            self._note_covered()
             self._covered_at = self.now_ms()
             self.push_screen(WindowTooSmall(self.frame, self._cover()))
 
@@ -165,14 +167,20 @@ class StudyApp(Program, inherit_bindings=False):
         return ""
 
     def _uncover(self) -> None:
-        """Tell what can be seen again, and record for how long it could not."""
+        """Tell what can be seen again."""
         for screen in self.screen_stack:
             if isinstance(screen, StudyScreen):
                 screen.uncover()
-        if self.session is not None and self._covered_at is not None:
-            with suppress(AnaError):
-                self.session.record(Covered(self.now_ms() - self._covered_at))
+        self._note_covered()
         self._covered_at = None
+
+    def _note_covered(self) -> None:
+        """Record for how long the window has been too small, in the phase that it belongs to."""
+        if self.session is not None and self._covered_at is not None:
+            now_ms = self.now_ms()
+            with suppress(AnaError):
+                self.session.record(Covered(now_ms - self._covered_at))
+            self._covered_at = now_ms
 
     def now_ms(self) -> int:
         """The session's clock; 0 before there is a session."""

@@ -233,6 +233,23 @@ async def test_a_mission_goes_on_unseen_and_the_tables_say_for_how_long(study: S
     assert rows.rounds[0].mission_covered_ms == covered.covered_ms
 
 
+async def test_a_mission_that_ends_unseen_has_its_covered_time(study: Study) -> None:
+    async with at(study, Step("mission", 1)) as pilot:
+        await until(pilot, PageScreen)
+        await pilot.press("enter")
+        await until(pilot, StudyMissionScreen)
+        await pilot.resize_terminal(100, 30)
+        await until(pilot, WindowTooSmall)
+        while not records(study, PhaseEnded, "mission", segment=1):
+            await pilot.pause(0.1)
+        await pilot.resize_terminal(*SIZE)
+        await until(pilot, SlidersScreen)
+    covered = sum(it.covered_ms for it in records(study, Covered, "mission", segment=1))
+    assert 3_000 <= covered <= 6_500
+    (played,) = session_tables(journal_of(study)).rounds[:1]
+    assert played.mission_covered_ms == covered
+
+
 @pytest.mark.parametrize("phase", ["sliders", "memorise", "mission"])
 async def test_a_window_too_small_can_be_left(study: Study, phase: Phase) -> None:
     async with at(study, Step(phase, 1)) as pilot:
