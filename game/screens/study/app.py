@@ -55,6 +55,7 @@ class StudyApp(Program, inherit_bindings=False):
         self.person = ScreenParticipant(self, self.frame, study.texts, study.settings.mission)
         self._lock: SessionLock | None = None
         self._covered_at: int | None = None
+        self._leaving = False
 
     def on_mount(self) -> None:
         lead_out(self._note_signal, self._leave)
@@ -150,7 +151,7 @@ class StudyApp(Program, inherit_bindings=False):
         if covered and enough:
             self.pop_screen()
             self._uncover()
-        elif not (covered or enough or nothing_yet):
+        elif not (covered or enough or nothing_yet or self._leaving):
             self._note_covered()
             self._covered_at = self.now_ms()
             self.push_screen(WindowTooSmall(self.frame, self._cover()))
@@ -187,7 +188,9 @@ class StudyApp(Program, inherit_bindings=False):
         return 0 if self.session is None else self.session.now_ms()
 
     def action_leave_small(self) -> None:
-        """Stop taking part, without a question: there is no room for one."""
+        """Stop taking part, without a question: there is no room for one. What is said at the end
+        is shown as far as it fits."""
+        self._leaving = True
         self._uncover()
         for screen in reversed(self.screen_stack):
             if isinstance(screen, StudyScreen):

@@ -265,9 +265,9 @@ async def test_a_window_too_small_can_be_left(study: Study, phase: Phase) -> Non
         await until(pilot, WindowTooSmall)
         assert study.texts.words.leave_now in painted(pilot.app.screen)
         await pilot.press("q")
-        await pilot.pause(0.2)
-        await until(pilot, WindowTooSmall)
-        await pilot.press("q")
+        await until(pilot, PageScreen)
+        assert study.texts.words.goodbye.title in painted(pilot.app.screen)
+        await pilot.press("enter")
         await closed(pilot)
     assert records(study, SessionEnded) == [SessionEnded("quit")]
 
