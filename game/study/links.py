@@ -10,11 +10,12 @@ import os
 import re
 from base64 import b32encode, urlsafe_b64encode
 from collections.abc import Iterable
+from contextlib import suppress
 from hashlib import sha256
 from hmac import compare_digest, new
 from pathlib import Path
 from secrets import token_bytes
-from urllib.parse import urlsplit
+from tempfile import NamedTemporaryFile
 
 from game.errors import AnaError
 
@@ -23,6 +24,7 @@ LINK = "link"
 """The name of the token in an address."""
 _KEY_BYTES, _SIGNATURE_BYTES, _HASH_BYTES = 32, 16, 10
 _PANEL_ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
+_ADDRESS = re.compile(r"https?://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]{1,5})?(/[^?#\s]*)?")
 _PILOT = "pilot"
 
 
@@ -37,14 +39,8 @@ def study_key(folder: Path) -> bytes:
     """
     path = folder / KEY
     try:
-        try:
-            descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-        except FileExistsError:
-            return _read(path)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(token_bytes(_KEY_BYTES))
-            file.flush()
-            os.fsync(file.fileno())
+        if not path.exists():
+            _make(path)
         return _read(path)
     except OSError as error:
         raise LinkError(
@@ -52,6 +48,16 @@ def study_key(folder: Path) -> bytes:
             place=str(path),
             hint="Let the study's account write there",
         ) from error
+
+
+def _make(path: Path) -> None:
+    """Put a new key there, whole, unless someone else was faster."""
+    with NamedTemporaryFile(dir=path.parent, prefix=f".{KEY}-") as file:
+        file.write(token_bytes(_KEY_BYTES))
+        file.flush()
+        os.fsync(file.fileno())
+        with suppress(FileExistsError):
+            os.link(file.name, path)
 
 
 def _read(path: Path) -> bytes:
@@ -99,8 +105,7 @@ def panel_pseudonym(key: bytes, panel_id: str) -> str:
 
 def checked_address(address: str) -> str:
     """An address that people reach the server at, ending in a slash. Raises LinkError."""
-    parts = urlsplit(address)
-    if parts.scheme not in ("http", "https") or not parts.hostname or parts.query or parts.fragment:
+    if _ADDRESS.fullmatch(address) is None:
         raise LinkError(
             f"'{address}' is not the address of a website",
             place="--url",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -83,11 +83,14 @@ class Line:
     keys: TokenBucket
     data: TokenBucket
 
-    async def close(self, why: Goodbye) -> None:
-        """End it; does not wait long for a browser that is gone."""
-        with suppress(Exception):
-            async with asyncio.timeout(1):
-                await self.socket.close(code=why)
+    why: Goodbye | None = None
+    closing: asyncio.Event = field(default_factory=asyncio.Event)
+    """Set when its own handler is to close it."""
+
+    def close(self, why: Goodbye) -> None:
+        """Have it closed."""
+        self.why = why
+        self.closing.set()
 
 
 @dataclass(eq=False)
@@ -112,7 +115,7 @@ class Hosted:
         """Put a line on, in place of another, and have everything painted on it."""
         before, self.line = self.line, line
         if before is not None:
-            await before.close(Goodbye.ELSEWHERE)
+            before.close(Goodbye.ELSEWHERE)
         await self.repaint(line)
 
     def detach(self, line: Line) -> None:
@@ -186,9 +189,10 @@ class Hosted:
             return
         if self._why is Goodbye.ENDED:
             ending = await self.visitor.ending(self.status)
-            with suppress(ConnectionError, RuntimeError):
-                await line.socket.send_str(msgspec.json.encode(ending).decode())
-        await line.close(self._why)
+            with suppress(TimeoutError, ConnectionError, RuntimeError):
+                async with asyncio.timeout(self.limits.send_s):
+                    await line.socket.send_str(msgspec.json.encode(ending).decode())
+        line.close(self._why)
 
 
 class Room:
@@ -204,21 +208,28 @@ class Room:
     def __len__(self) -> int:
         return len(self._hosted)
 
+    def __iter__(self) -> Iterator[Hosted]:
+        return iter(list(self._hosted.values()))
+
     async def enter(self, visitor: Visitor) -> Hosted:
         """The visitor's program, running already or started now.
 
         Raises NoRoom where too many run, and OSError where it cannot be started.
         """
-        while (hosted := self._hosted.get(visitor.name)) is not None and hosted.leaving:
-            await hosted.over.wait()
-        async with self._door:
-            hosted = self._hosted.get(visitor.name)
-            if hosted is not None:
+        while True:
+            async with self._door:
+                hosted = self._hosted.get(visitor.name)
+                if hosted is None:
+                    return await self._start(visitor)
+            if not hosted.leaving:
                 return hosted
-            if self._closing or len(self._hosted) >= self.limits.sessions:
-                raise NoRoom
-            terminal = await PseudoTerminal.start(visitor.command, visitor.env, visitor.size)
-            hosted = self._hosted[visitor.name] = Hosted(visitor, terminal, self.limits)
+            await hosted.over.wait()
+
+    async def _start(self, visitor: Visitor) -> Hosted:
+        if self._closing or len(self._hosted) >= self.limits.sessions:
+            raise NoRoom
+        terminal = await PseudoTerminal.start(visitor.command, visitor.env, visitor.size)
+        hosted = self._hosted[visitor.name] = Hosted(visitor, terminal, self.limits)
         task = asyncio.create_task(self._host(hosted))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -238,8 +249,7 @@ class Room:
     async def close(self) -> None:
         """Hang up on everyone, all at once; every program is reaped."""
         self._closing = True
-        everyone = list(self._hosted.values())
-        await asyncio.gather(*(hosted.stop(Goodbye.STOPPING) for hosted in everyone))
+        await asyncio.gather(*(hosted.stop(Goodbye.STOPPING) for hosted in self))
 
     async def _host(self, hosted: Hosted) -> None:
         try:

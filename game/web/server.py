@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import html
 import ipaddress
+import logging
 import re
 import socket
 from collections.abc import Awaitable, Callable
@@ -14,7 +15,7 @@ from string import Template
 from urllib.parse import urlsplit
 
 import msgspec
-from aiohttp import WSMsgType, web
+from aiohttp import WSCloseCode, WSMsgType, web
 
 from game.errors import AnaError
 from game.study.texts import BrowserPage
@@ -22,6 +23,7 @@ from game.web.doors import Door
 from game.web.hosted import MOST_MESSAGE_BYTES, Goodbye, Hosted, Line, NoRoom, Room
 
 HEARTBEAT_S = 15.0
+CLOSING_S = 2.0
 _TAB = re.compile(r"[A-Za-z0-9]{8,40}")
 _OURS, _THEIRS = resources.files("game.web") / "page", "textual_serve"
 _TYPES = {
@@ -43,6 +45,7 @@ _HEADERS = {
         "form-action 'none'; frame-ancestors 'none'"
     ),
 }
+_LOGGER = logging.getLogger(__name__)
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -75,6 +78,9 @@ class WebServer:
             response = await handler(request)
         except web.HTTPException as error:
             return web.Response(status=error.status, text=error.reason, headers=_HEADERS)
+        except Exception:
+            _LOGGER.exception("a request failed")
+            return web.Response(status=500, text="Something went wrong.", headers=_HEADERS)
         if not response.prepared:
             response.headers.update(_HEADERS)
         return response
@@ -134,8 +140,7 @@ class WebServer:
     async def _line(self, request: web.Request) -> web.StreamResponse:
         """Output of the program in binary messages; from the page, text: `k` and keys, `r` to be
         painted anew, `c` while nobody sees it, `?` to be answered with `!`."""
-        origin = urlsplit(request.headers.get("Origin", ""))
-        if origin.netloc.lower() != request.host.lower():
+        if not _same_site(request.headers.get("Origin", ""), request.host):
             raise web.HTTPForbidden
         tab = request.query.get("tab", "")
         if not _TAB.fullmatch(tab):
@@ -156,10 +161,26 @@ class WebServer:
         line = self.room.line(channel, request.transport)
         try:
             await hosted.attach(line)
-            await self._listen(channel, hosted, line)
+            listening = asyncio.create_task(self._listen(channel, hosted, line))
+            closing = asyncio.create_task(line.closing.wait())
+            await asyncio.wait({listening, closing}, return_when=asyncio.FIRST_COMPLETED)
+            for task in (listening, closing):
+                task.cancel()
+            await asyncio.gather(listening, closing, return_exceptions=True)
+            await self._close_line(channel, line)
         finally:
             hosted.detach(line)
         return channel
+
+    @staticmethod
+    async def _close_line(channel: web.WebSocketResponse, line: Line) -> None:
+        """Does not wait long for a browser that reads nothing."""
+        try:
+            async with asyncio.timeout(CLOSING_S):
+                await channel.close(code=line.why or WSCloseCode.OK)
+        except TimeoutError:
+            if line.transport is not None:
+                line.transport.abort()
 
     @staticmethod
     async def _listen(channel: web.WebSocketResponse, hosted: Hosted, line: Line) -> None:
@@ -180,6 +201,13 @@ class WebServer:
 
     async def _close(self, _: web.Application) -> None:
         await self.room.close()
+
+
+def _same_site(origin: str, host: str) -> bool:
+    """Whether a page came from where its request goes to."""
+    scheme, _, name = origin.lower().partition("://")
+    port = {"http": ":80", "https": ":443"}.get(scheme)
+    return port is not None and name.removesuffix(port) == host.lower().removesuffix(port)
 
 
 def _files() -> dict[str, bytes]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import ipaddress
+import logging
 import signal
 from collections.abc import Callable
 from urllib.parse import urlsplit
@@ -39,7 +40,11 @@ async def _serve(
     names = frozenset({host.lower(), (urlsplit(url).hostname or host).lower()})
     server = WebServer(door, Room(limits), names, loopback=_is_loopback(host))
     runner = web.AppRunner(
-        server.application(), access_log=None, handle_signals=False, shutdown_timeout=1.0
+        server.application(),
+        access_log=None,
+        logger=_nameless(),
+        handle_signals=False,
+        shutdown_timeout=1.0,
     )
     await runner.setup()
     stop = asyncio.Event()
@@ -59,6 +64,13 @@ async def _serve(
         await stop.wait()
     finally:
         await runner.cleanup()
+
+
+def _nameless() -> logging.Logger:
+    """What aiohttp would log names the address of whoever asked."""
+    logger = logging.Logger("nowhere")
+    logger.addHandler(logging.NullHandler())
+    return logger
 
 
 def _is_loopback(host: str) -> bool:

@@ -1,0 +1,129 @@
+"""A real server of a study, as a process of its own, and what it runs."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Self
+
+import click
+import msgspec
+
+from game.commands.ana_study_web import web_extra
+from game.study.folder import Study
+from game.study.links import LINK, study_key, token
+from game.web.hosted import Limits
+from tests.study.server import ANA
+
+PATIENCE_S = 30.0
+
+
+class Served:
+    """`ana study serve` for a study, on a free port; with `limits`, the same with others than the
+    command's. Use as a context manager."""
+
+    def __init__(
+        self, study: Study, *options: str, limits: Limits | None = None, env: str = ""
+    ) -> None:
+        self.study = study
+        self._command: Sequence[str | Path] = (ANA, "study", "serve", study.folder, "--port", "0")
+        if limits is not None:
+            told = msgspec.json.encode(limits).decode()
+            self._command = (sys.executable, "-m", "tests.web.served", str(study.folder), told)
+        self._command = (*self._command, *options)
+        self._env = {**os.environ, "SECRET_OF_THE_SERVER": "hunter2", "PYTHONUNBUFFERED": "1"}
+        self.said: list[str] = []
+
+    def __enter__(self) -> Self:
+        self.process = subprocess.Popen(
+            self._command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=self._env,
+            text=True,
+            start_new_session=True,
+        )
+        threading.Thread(target=self._listen, daemon=True).start()
+        until(lambda: self.address != "" or self.process.poll() is not None)
+        if not self.address:
+            raise RuntimeError("".join(self.said))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        self.process.wait(PATIENCE_S)
+
+    def _listen(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.said.append(line)
+
+    @property
+    def address(self) -> str:
+        """Where it is to be reached, ending in a slash."""
+        found = re.search(r"https?://\S+/(?= )", "".join(self.said))
+        return "" if found is None else found[0]
+
+    @property
+    def port(self) -> int:
+        return int(self.address.rpartition(":")[2].rstrip("/"))
+
+    def ticket(self, participant: str, *, pilot: bool = False) -> str:
+        """What a participant's link carries."""
+        return token(study_key(self.study.folder), participant, pilot=pilot)
+
+    def link(self, participant: str) -> str:
+        return f"{self.address}?{LINK}={self.ticket(participant)}"
+
+    def programs(self) -> list[int]:
+        """The processes that play a session of the study."""
+        found = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                words = (process / "cmdline").read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if b"login" in words and str(self.study.folder.resolve()).encode() in words:
+                found.append(int(process.name))
+        return found
+
+
+def until(ready: Callable[[], bool], seconds: float = PATIENCE_S) -> None:
+    """Wait for something. Raises TimeoutError."""
+    end = time.monotonic() + seconds
+    while not ready():
+        if time.monotonic() > end:
+            raise TimeoutError
+        time.sleep(0.02)
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("limits")
+def serve_within(folder: Path, limits: str) -> None:
+    """Serve a study within limits given as JSON."""
+    with web_extra():
+        from game.web.doors import StudyDoor
+        from game.web.serving import serve
+    from game.study.folder import open_study
+
+    within = msgspec.json.decode(limits, type=Limits)
+    serve(
+        StudyDoor(open_study(folder)),
+        "127.0.0.1",
+        0,
+        limits=within,
+        ready=lambda address: click.echo(f"participants come to {address} "),
+    )
+
+
+if __name__ == "__main__":
+    serve_within()
