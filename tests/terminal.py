@@ -87,6 +87,12 @@ class Shown:
             self._shown = "\n".join(line.rstrip() for line in self._screen.display)
         return self._shown
 
+    def forget(self) -> None:
+        """Begin with an empty screen, as if nothing had come yet."""
+        self.chunks.clear()
+        self._screen.reset()
+        self._fed, self._shown = 0, None
+
     @staticmethod
     def answer(data: bytes) -> bytes:
         """What a terminal says to the questions in a program's output."""

@@ -6,31 +6,15 @@ import asyncio
 import json
 import threading
 import time
-from collections.abc import Coroutine
 from contextlib import suppress
-from typing import Any, TypeVar
 
 import aiohttp
 
 from tests.terminal import KEYS, Chunk, Shown
+from tests.web.aside import aside
 
-Value = TypeVar("Value")
 TAB = "abcdefgh"
 COLUMNS, ROWS = 120, 40
-
-
-class _Loop:
-    """An event loop of its own in a thread, for callers that have none."""
-
-    def __init__(self) -> None:
-        self.loop = asyncio.new_event_loop()
-        threading.Thread(target=self.loop.run_forever, daemon=True).start()
-
-    def run(self, work: Coroutine[Any, Any, Value], seconds: float = 30) -> Value:
-        return asyncio.run_coroutine_threadsafe(work, self.loop).result(seconds)
-
-
-_aside = _Loop()
 
 
 def get(address: str, **headers: str) -> tuple[int, str, dict[str, str]]:
@@ -43,7 +27,7 @@ def get(address: str, **headers: str) -> tuple[int, str, dict[str, str]]:
         ):
             return answer.status, await answer.text(errors="replace"), dict(answer.headers)
 
-    return _aside.run(fetch())
+    return aside.run(fetch())
 
 
 class WebTerminal(Shown):
@@ -70,7 +54,7 @@ class WebTerminal(Shown):
         self._headers = {"Origin": address.rstrip("/"), **headers}
         self._url = f"{address}line"
         self._query = {"ticket": ticket, "tab": tab}
-        _aside.run(self._connect(reads))
+        aside.run(self._connect(reads))
 
     async def _connect(self, reads: bool) -> None:
         self._session = aiohttp.ClientSession()
@@ -99,7 +83,7 @@ class WebTerminal(Shown):
         return self
 
     def __exit__(self, *_: object) -> None:
-        _aside.run(self._close())
+        aside.run(self._close())
 
     async def _close(self) -> None:
         with suppress(Exception):
@@ -114,7 +98,7 @@ class WebTerminal(Shown):
             if response is not None and response.transport is not None:
                 response.transport.abort()
 
-        _aside.run(abort())
+        aside.run(abort())
 
     def press(self, *keys: str) -> None:
         for key in keys:
@@ -124,7 +108,7 @@ class WebTerminal(Shown):
         """Send a message as it is."""
         send = self._socket.send_str if isinstance(message, str) else self._socket.send_bytes
         with suppress(ConnectionError):
-            _aside.run(send(message))  # type: ignore[arg-type]
+            aside.run(send(message))  # type: ignore[arg-type]
 
     def read_for(self, seconds: float) -> bool:
         self._news.clear()

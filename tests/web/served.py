@@ -29,9 +29,7 @@ class Served:
     """`ana study serve` for a study, on a free port; with `limits`, the same with others than the
     command's. Use as a context manager."""
 
-    def __init__(
-        self, study: Study, *options: str, limits: Limits | None = None, env: str = ""
-    ) -> None:
+    def __init__(self, study: Study, *options: str, limits: Limits | None = None) -> None:
         self.study = study
         self._command: Sequence[str | Path] = (ANA, "study", "serve", study.folder, "--port", "0")
         if limits is not None:
@@ -83,15 +81,20 @@ class Served:
     def link(self, participant: str) -> str:
         return f"{self.address}?{LINK}={self.ticket(participant)}"
 
-    def programs(self) -> list[int]:
-        """The processes that play a session of the study."""
+    def programs(self, participant: str = "") -> list[int]:
+        """The processes that play a session of the study, or those of one participant."""
         found = []
+        folder = str(self.study.folder.resolve()).encode()
+        wanted = f"ANA_PARTICIPANT={participant}".encode() if participant else b""
         for process in Path("/proc").glob("[0-9]*"):
             try:
                 words = (process / "cmdline").read_bytes().split(b"\0")
+                if b"login" not in words or folder not in words:
+                    continue
+                told = (process / "environ").read_bytes().split(b"\0") if wanted else [b""]
             except OSError:
                 continue
-            if b"login" in words and str(self.study.folder.resolve()).encode() in words:
+            if wanted in told:
                 found.append(int(process.name))
         return found
 
