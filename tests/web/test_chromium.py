@@ -175,6 +175,7 @@ def test_a_line_that_drops_for_five_seconds_finds_the_running_program(
     assert Covered in kinds
 
 
+@pytest.mark.slow
 def test_keys_pressed_while_the_line_stalls_keep_their_order(
     served: Served, chromium: Chromium
 ) -> None:
@@ -217,6 +218,7 @@ def test_two_tabs_take_over_only_when_asked(
     second.close()
 
 
+@pytest.mark.slow
 def test_a_server_that_is_killed_and_started_again_goes_on_where_it_was(
     tmp_path: Path, chromium: Chromium, words: BrowserWords
 ) -> None:

@@ -20,7 +20,7 @@ from game.web.hosted import Goodbye, Limits
 from tests.study.participant import TerminalParticipant
 from tests.study.people import cut_off, finished_study, journal_of, small_study
 from tests.study.server import ANA
-from tests.web.client import WebTerminal, get
+from tests.web.client import TAB, WebTerminal, get
 from tests.web.pages import told_by
 from tests.web.served import Served, until
 
@@ -41,11 +41,17 @@ def served(study: Study) -> Iterator[Served]:
         yield server
 
 
-def enter(server: Served, participant: str, **keywords: str) -> WebTerminal:
+def enter(server: Served, participant: str, tab: str = TAB) -> WebTerminal:
     """Open a participant's link, and the line that its page would."""
     status, page, _ = get(server.link(participant))
     assert status == 200
-    return WebTerminal(server.address, told_by(page)["ticket"], **keywords)
+    return WebTerminal(server.address, told_by(page)["ticket"], tab=tab)
+
+
+def ana_study(name: str, study: Study, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run `ana study NAME DIR ...`."""
+    command = [str(ANA), "study", name, str(study.folder), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
 
 
 def test_the_server_says_how_participants_come_in(served: Served) -> None:
@@ -56,12 +62,7 @@ def test_the_server_says_how_participants_come_in(served: Served) -> None:
 
 
 def test_an_invitations_link_opens_the_study(served: Served) -> None:
-    invited = subprocess.run(
-        [ANA, "study", "invite", served.study.folder, "P05", "P06", "--url", served.address],
-        check=True,
-        capture_output=True,
-        text=True,
-    )
+    invited = ana_study("invite", served.study, "P05", "P06", "--url", served.address)
     links = dict(line.split("\t") for line in invited.stdout.splitlines())
     assert list(links) == ["P05", "P06"]
     status, page, _ = get(links["P05"])
@@ -178,7 +179,7 @@ def test_whoever_finished_gets_the_code_and_the_way_back(tmp_path: Path) -> None
     path = study.folder / "study.toml"
     panel = 'return_url = "https://panel.example/done?cc={code}"'
     path.write_text(path.read_text().replace('return_url = ""', panel))
-    subprocess.run([ANA, "study", "amend", study.folder, "--why", "panel"], check=True)
+    assert ana_study("amend", study, "--why", "panel").returncode == 0
     with Served(open_study(study.folder)) as server:
         ticket = server.ticket("P01", pilot=True)
         with WebTerminal(server.address, ticket) as terminal:
@@ -256,8 +257,7 @@ def test_a_line_away_for_too_long_is_hung_up_and_the_next_resumes(tmp_path: Path
 
 
 def test_a_port_in_use_is_named(served: Served) -> None:
-    command = [ANA, "study", "serve", served.study.folder, "--port", str(served.port)]
-    refused = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    refused = ana_study("serve", served.study, "--port", str(served.port))
     assert refused.returncode == 2
     assert f"port {served.port}" in refused.stderr
     assert "--port" in refused.stderr
@@ -276,8 +276,7 @@ def test_wrong_arguments_are_refused_and_nothing_is_printed(
     served: Served, arguments: tuple[str, ...], said: str
 ) -> None:
     name, *others = arguments
-    command = [ANA, "study", name, served.study.folder, *others]
-    refused = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    refused = ana_study(name, served.study, *others)
     assert refused.returncode == 2
     assert said in refused.stderr
     assert refused.stdout == ""
@@ -286,12 +285,11 @@ def test_wrong_arguments_are_refused_and_nothing_is_printed(
 def test_only_those_on_the_roster_are_invited(tmp_path: Path) -> None:
     study = small_study(tmp_path / "study")
     (study.folder / "roster.csv").write_text("P01\nP02\n")
-    command = [ANA, "study", "invite", study.folder]
-    refused = subprocess.run([*command, "P01", "P03"], capture_output=True, text=True)
+    refused = ana_study("invite", study, "P01", "P03")
     assert refused.returncode == 2
     assert "P03 is not on the roster" in refused.stderr
     assert refused.stdout == ""
-    assert subprocess.run([*command, "P02"], capture_output=True).returncode == 0
+    assert ana_study("invite", study, "P02").returncode == 0
 
 
 # --- a whole session ----------------------------------------------------------------------------
