@@ -117,6 +117,14 @@ def test_a_phone_or_a_small_window_is_told_so(
 ) -> None:
     tab.resize(*size)
     tab.wait_for_notice(words.too_small.title)
+    told = tab.evaluate(
+        "[...document.querySelectorAll('#notice h1, #notice .text')].map(it => {"
+        " const {left, top, right, bottom} = it.getBoundingClientRect();"
+        " return [left, top, right, bottom] })"
+    )
+    for left, top, right, bottom in told:
+        assert 0 <= left < right <= size[0]
+        assert 0 <= top < bottom <= size[1]
     tab.resize(1366, 768)
     tab.wait_for_notice("")
     tab.wait_for(READY)
