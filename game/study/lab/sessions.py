@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
-from game.journal.folders import PUT_BACK, transcripts
+from game.journal.folders import PUT_BACK, SESSIONS, transcripts
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import Allocated, StudyMode
-from game.study.ledger import LedgerEntry, ending_of, slot_of
+from game.study.ledger import LedgerEntry, SlotTaken, ending_of, slot_of
 
 
 def sessions_of(
@@ -18,7 +18,7 @@ def sessions_of(
     """The sessions of a mode but for withdrawn ones and those in the folders `without`.
 
     Raises JournalError, naming the file, for one that cannot be read, lies in the wrong place or
-    has a place that the ledger does not know.
+    has a place that the ledger does not know, and for a place whose session is gone.
     """
     found = []
     for transcript in transcripts(folder, mode, without):
@@ -28,7 +28,27 @@ def sessions_of(
         if wrong := without_a_place(transcript, entries, mode):
             raise JournalError(wrong, place=transcript.source, hint=PUT_BACK)
         found.append(transcript)
+    there = {transcript.started.participant for transcript in found} | set(without)
+    for lost in places_without_a_session(entries, mode, there):
+        raise JournalError(lost, place=str(folder / SESSIONS / mode), hint=_LOST)
     return found
+
+
+def places_without_a_session(
+    entries: Sequence[LedgerEntry], mode: StudyMode, there: Collection[str]
+) -> Iterator[str]:
+    """Who has a place but is not among those whose session is `there`, and has not withdrawn."""
+    for entry in entries:
+        if (
+            isinstance(entry, SlotTaken)
+            and entry.mode == mode
+            and entry.participant not in there
+            and ending_of(entries, entry.participant, mode) != "withdrawn"
+        ):
+            yield f"{entry.participant} ({mode}) has place {entry.slot}, but no session"
+
+
+_LOST = "Bring the session's folder back from a backup, or leave it out with --without"
 
 
 def without_a_place(transcript: Transcript, entries: Sequence[LedgerEntry], mode: StudyMode) -> str:
