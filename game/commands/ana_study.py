@@ -331,17 +331,19 @@ def serve_browsers(folder: Path, host: str, port: int, url: str | None, sessions
 @click.argument("participants", metavar="ID...", nargs=-1, required=True)
 @click.option("--url", default="http://localhost:8080/", show_default=True,
               help="The address that participants use.")  # fmt: skip
+@click.option("--panel", is_flag=True,
+              help="The IDs are a panel's: print what they are called in the study.")  # fmt: skip
 @_PILOT
 def print_invitations(
-    folder: Path, participants: tuple[str, ...], url: str, *, pilot: bool
+    folder: Path, participants: tuple[str, ...], url: str, *, panel: bool, pilot: bool
 ) -> None:
-    """Print a link for each participant ID, which only that participant may use.
+    """Print each participant ID and a link that opens that participant's session.
 
     The links are signed with a key in the study folder, so nobody can make one for another ID.
     """
     from game.commands.ana_study_web import print_links
 
-    print_links(folder, participants, url, pilot=pilot)
+    print_links(folder, participants, url, pilot=pilot, panel=panel)
 
 
 @study_group.command("login", short_help="What the SSH server runs for a participant.")

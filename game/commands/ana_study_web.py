@@ -19,7 +19,8 @@ def web_extra() -> Iterator[None]:
     except ModuleNotFoundError as error:
         raise AnaError(
             f"this needs the package {error.name}, which is not installed",
-            hint="Install the extra: pip install 'ana[web]'",
+            hint="In the folder with the source: pip install --require-hashes "
+            "--requirement requirements/web.txt",
         ) from error
 
 
@@ -51,16 +52,19 @@ def serve_study(folder: Path, host: str, port: int, url: str | None, sessions: i
     )
 
 
-def print_links(folder: Path, participants: tuple[str, ...], url: str, *, pilot: bool) -> None:
+def print_links(
+    folder: Path, participants: tuple[str, ...], url: str, *, pilot: bool, panel: bool
+) -> None:
     """Print a link for each participant; see `ana study invite --help`. Nothing is printed where
     one of them is no ID, or is not on the roster."""
     from game.study.folder import admit_by_roster, identify, open_study
-    from game.study.links import LINK, checked_address, study_key, token
+    from game.study.links import LINK, checked_address, panel_pseudonym, study_key, token
 
     study, address = open_study(folder), checked_address(url)
-    for participant in participants:
-        admit_by_roster(study.folder, identify(participant, pilot=pilot))
     key = study_key(study.folder)
-    for participant in participants:
-        text = token(key, participant, pilot=pilot)
-        click.echo(f"{participant}\t{address}?{LINK}={text}")
+    hashed = panel and study.settings.web.hash_ids
+    names = [panel_pseudonym(key, it) if hashed else it for it in participants]
+    for name in names:
+        admit_by_roster(study.folder, identify(name, pilot=pilot))
+    for name in names:
+        click.echo(f"{name}\t{address}?{LINK}={token(key, name, pilot=pilot)}")

@@ -80,8 +80,12 @@ class WebSettings(_Section, frozen=True):
     hash_ids: bool = True
 
     def __post_init__(self) -> None:
-        if self.return_url and not re.match(r"https?://[^/\s]", self.return_url):
-            raise ValueError("web.return_url must be an address that begins with https://")
+        address = self.return_url.replace("{code}", "")
+        if address and not re.fullmatch(r"https?://[^/\s{}][^\s{}]*", address):
+            raise ValueError(
+                "web.return_url must be an address that begins with https://, in which {code} "
+                "stands for the completion code"
+            )
         if self.panel_id and not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", self.panel_id):
             raise ValueError("web.panel_id must be a name of letters, digits, _ and -")
 

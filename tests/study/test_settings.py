@@ -51,6 +51,10 @@ def test_the_template_is_valid_and_hides_score_and_pause(study_toml: Path) -> No
         ('"one", "two"', '"one", "one"', "two buildings must differ"),
         ("[60, 180]", "[180, 60]", "memorise_seconds"),
         ('coach = "ana"', 'coach = "yoked"', "coach must be one of .*, not yoked"),
+        ('return_url = ""', 'return_url = "panel.example"', "web.return_url must be an address"),
+        ('return_url = ""', 'return_url = "https://x.example/{kode}"', "web.return_url .*{code}"),
+        ('panel_id = "PROLIFIC_PID"', 'panel_id = "a b"', "web.panel_id must be a name"),
+        ("hash_ids", "hash_id", "Did you mean hash_ids?"),
         ("seed = 1", "seed = ", "not TOML"),
     ],
 )

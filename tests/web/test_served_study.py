@@ -98,6 +98,8 @@ def test_a_panels_participant_is_nobody_by_name(served: Served) -> None:
     panel_id = "5f0a1b2c3d4e5f6071829304"
     name = panel_pseudonym(study_key(served.study.folder), panel_id)
     cut_off(served.study, Identity("live", name), at="memorise")
+    invited = ana_study("invite", served.study, "--panel", panel_id)
+    assert invited.stdout.startswith(f"{name}\t")
     status, page, _ = get(f"{served.address}?PROLIFIC_PID={panel_id}&STUDY_ID=1&SESSION_ID=2")
     assert status == 200
     with WebTerminal(served.address, told_by(page)["ticket"]) as terminal:
