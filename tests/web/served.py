@@ -1,4 +1,4 @@
-"""A real server of a study, as a process of its own, and what it runs."""
+"""Real servers, as processes of their own, and what they run."""
 
 from __future__ import annotations
 
@@ -15,9 +15,11 @@ from typing import Self
 
 import click
 import msgspec
+import psutil
 
 from game.commands.ana_study_web import web_extra
 from game.study.folder import Study
+from game.study.lab.sshd import ID_VARIABLE
 from game.study.links import LINK, study_key, token
 from game.web.hosted import Limits
 from tests.study.server import ANA
@@ -25,18 +27,12 @@ from tests.study.server import ANA
 PATIENCE_S = 30.0
 
 
-class Served:
-    """`ana study serve` for a study, on a free port; with `limits`, the same with others than the
-    command's. Use as a context manager."""
+class Running:
+    """A command that serves, until the `with` block ends."""
 
-    def __init__(self, study: Study, *options: str, limits: Limits | None = None) -> None:
-        self.study = study
-        self._command: Sequence[str | Path] = (ANA, "study", "serve", study.folder, "--port", "0")
-        if limits is not None:
-            told = msgspec.json.encode(limits).decode()
-            self._command = (sys.executable, "-m", "tests.web.served", str(study.folder), told)
-        self._command = (*self._command, *options)
-        self._env = {**os.environ, "SECRET_OF_THE_SERVER": "hunter2", "PYTHONUNBUFFERED": "1"}
+    def __init__(self, *command: str | Path, **env: str) -> None:
+        self._command = command
+        self._env = {**os.environ, "PYTHONUNBUFFERED": "1", **env}
         self.said: list[str] = []
 
     def __enter__(self) -> Self:
@@ -74,6 +70,19 @@ class Served:
     def port(self) -> int:
         return int(self.address.rpartition(":")[2].rstrip("/"))
 
+
+class Served(Running):
+    """`ana study serve` for a study, on a free port; with `limits`, the same with others than the
+    command's."""
+
+    def __init__(self, study: Study, *options: str, limits: Limits | None = None) -> None:
+        self.study = study
+        command: Sequence[str | Path] = (ANA, "study", "serve", study.folder, "--port", "0")
+        if limits is not None:
+            told = msgspec.json.encode(limits).decode()
+            command = (sys.executable, "-m", "tests.web.served", study.folder, told)
+        super().__init__(*command, *options, SECRET_OF_THE_SERVER="hunter2")
+
     def ticket(self, participant: str, *, pilot: bool = False) -> str:
         """What a participant's link carries."""
         return token(study_key(self.study.folder), participant, pilot=pilot)
@@ -83,20 +92,13 @@ class Served:
 
     def programs(self, participant: str = "") -> list[int]:
         """The processes that play a session of the study, or those of one participant."""
-        found = []
-        folder = str(self.study.folder.resolve()).encode()
-        wanted = f"ANA_PARTICIPANT={participant}".encode() if participant else b""
-        for process in Path("/proc").glob("[0-9]*"):
-            try:
-                words = (process / "cmdline").read_bytes().split(b"\0")
-                if b"login" not in words or folder not in words:
-                    continue
-                told = (process / "environ").read_bytes().split(b"\0") if wanted else [b""]
-            except OSError:
-                continue
-            if wanted in told:
-                found.append(int(process.name))
-        return found
+        folder = str(self.study.folder.resolve())
+        return [
+            process.pid
+            for process in psutil.process_iter(["cmdline", "environ"])
+            if {"login", folder} <= set(process.info["cmdline"] or ())
+            and participant in ("", (process.info["environ"] or {}).get(ID_VARIABLE))
+        ]
 
 
 def until(ready: Callable[[], bool], seconds: float = PATIENCE_S) -> None:

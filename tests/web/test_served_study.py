@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import aiohttp
+import psutil
 import pytest
 
 from game.journal.records import Covered, Debriefed, Interruption, Preflighted, Resumed, TakenOver
@@ -70,12 +71,12 @@ def test_an_invitations_link_opens_the_study(served: Served) -> None:
     with WebTerminal(served.address, told_by(page)["ticket"]) as terminal:
         terminal.wait_for(READY)
         (program,) = served.programs("P05")
-        told = Path(f"/proc/{program}/environ").read_bytes()
-        assert b"ANA_PARTICIPANT=P05\0" in told + b"\0"
-        assert b"SECRET_OF_THE_SERVER" not in told
-        shells = Path(f"/proc/{program}/stat").read_text().rpartition(")")[2].split()
-        assert int(shells[1]) == served.process.pid, "its parent is the server itself"
-        assert int(shells[3]) == program, "it has a session of its own"
+        told = psutil.Process(program).environ()
+        assert told["ANA_PARTICIPANT"] == "P05"
+        assert "SECRET_OF_THE_SERVER" not in told
+        parent = psutil.Process(program).ppid()
+        assert parent == served.process.pid, "there is no shell in between"
+        assert os.getsid(program) == program, "it has a session of its own"
 
 
 def test_a_wrong_token_gets_a_page_that_says_so_and_no_line(served: Served) -> None:

@@ -7,8 +7,8 @@ import json
 import os
 import re
 import time
-from pathlib import Path
 
+import psutil
 import pytest
 from aiohttp import ClientSession, WSMsgType
 
@@ -21,10 +21,9 @@ QUICK = Limits(away_s=0.6, idle_s=60, send_s=0.5)
 
 
 def alive(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
+    if not psutil.pid_exists(pid):
         return False
+    return str(psutil.Process(pid).status()) != psutil.STATUS_ZOMBIE
 
 
 def pids(server: Echoes) -> list[int]:
