@@ -23,7 +23,7 @@ QUICK = Limits(away_s=0.6, idle_s=60, send_s=0.5)
 def alive(pid: int) -> bool:
     if not psutil.pid_exists(pid):
         return False
-    return str(psutil.Process(pid).status()) != psutil.STATUS_ZOMBIE
+    return bool(psutil.Process(pid).status() != psutil.STATUS_ZOMBIE)
 
 
 def pids(server: Echoes) -> list[int]:
