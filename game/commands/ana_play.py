@@ -34,7 +34,8 @@ def mission_options(command: _Command) -> _Command:
             default=DEFAULT_BUILDING,
             show_default=True,
             metavar="NAME|PATH",
-            help="A building that comes with ana, or the path of your own file.",
+            help="A building that comes with ana, generated:SEED for one made from a seed, or the "
+            "path of your own file.",
         ),
         click.option(
             "--coach",
