@@ -6,8 +6,10 @@ at the usual pace.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 from random import Random
 from typing import NamedTuple
 
@@ -26,6 +28,9 @@ _APART = 4
 _FROM_DOORS = 7
 """They lie at least so many cells from its doors, if there is space."""
 
+_PLACINGS = 40
+"""So many ways to place victims are tried for one as balanced as that drawn."""
+
 Lying = tuple[tuple[Cell, Severity], ...]
 Spots = tuple[tuple[Cell, ...], ...]
 
@@ -39,6 +44,34 @@ class Reached(NamedTuple):
     @property
     def total(self) -> int:
         return self.red + self.blue
+
+
+def placed_anew(building: Building, seed: int) -> Building:
+    """The building with as many victims of either kind in other places, which the seed decides.
+
+    As many rooms have one, two or more of them as before, and a follower who loses no time rescues
+    as many, or one fewer; of the ways tried, the one that comes nearest to that.
+    """
+    random = Random(f"placing/{seed}")
+    if not building.victims:
+        return building
+    drawn = reached_by_follower(building)
+    by_room = Counter(building.room_of(victim) for victim in building.victims)
+    start = building.room_at(building.start)
+    rooms = [room for room in building.rooms if room is not start or room in by_room]
+    count = max(SPOTS, *by_room.values())
+    spots = tuple(spots_of(room, building, count, random) for room in rooms)
+    reds = sum(victim.severity is Severity.RED for victim in building.victims)
+    floodfills = building.terrain.floodfills
+    best: tuple[int, Lying] | None = None
+    for lying in islice(dealt(spots, tuple(by_room.values()), reds, random), _PLACINGS):
+        found = reached(floodfills, building.start, lying)
+        if found.red == drawn.red and drawn.total - 1 <= found.total <= drawn.total:
+            return with_victims(building, lying)
+        off = abs(drawn.red - found.red) * len(lying) + abs(drawn.total - found.total)
+        if best is None or off < best[0]:
+            best = off, lying
+    return building if best is None else with_victims(building, best[1])
 
 
 def reached_by_follower(building: Building) -> Reached:
