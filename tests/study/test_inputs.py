@@ -147,7 +147,7 @@ def test_only_the_owner_simulates_into_a_study(
     study = small_study(tmp_path / "study")
     before = study.ledger.path.read_bytes()
     monkeypatch.setattr("os.geteuid", lambda: 54_321)
-    assert main(["simulate", str(study.folder), "--participants", "2"]) == 2
+    assert main(["simulate", str(study.folder), "--participants", "2", "--seed", "1"]) == 2
     assert f"sudo -u {study.folder.owner()} ana simulate" in capsys.readouterr().err
     assert study.ledger.path.read_bytes() == before
 
