@@ -27,6 +27,7 @@ from game.session.run import MissionRun, Recorder
 from game.world.building import Building
 from game.world.mission import Mission
 from game.world.settings import MissionSettings
+from game.world.variant import USUAL, Variant
 
 CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
 """Builds a coach from its description; pass another to play with a coach of your own."""
@@ -43,6 +44,7 @@ def start_free_play(
     rescuer: str = PERSON,
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
+    variant: Variant = USUAL,
 ) -> tuple[MissionRun, Journal]:
     """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
 
@@ -53,7 +55,8 @@ def start_free_play(
     session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
     opening = _free_play(session, settings, seed, terminal, rescuer)
     journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
-    return begin_mission(journal, building, settings, spec, seed, build=build), journal
+    run = begin_mission(journal, building, settings, spec, seed, build=build, variant=variant)
+    return run, journal
 
 
 def start_in_memory(
@@ -84,6 +87,7 @@ def begin_mission(
     seed: int,
     *,
     build: CoachBuilder = build_coach,
+    variant: Variant = USUAL,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
@@ -92,13 +96,17 @@ def begin_mission(
     if journal.phase == "session":
         journal.enter("mission")
     run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    journal.append(mission_started(building, settings, spec, seed))
+    journal.append(mission_started(building, settings, spec, seed, variant))
     run.begin()
     return run
 
 
 def mission_started(
-    building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    variant: Variant = USUAL,
 ) -> MissionStarted:
     """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
@@ -111,6 +119,7 @@ def mission_started(
         seed=seed,
         rules_version=RULES_VERSION,
         assumed=assumed_of(spec),
+        variant=variant,
     )
 
 

@@ -36,6 +36,7 @@ from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import USUAL, Variant, varied
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
@@ -60,6 +61,16 @@ class PlayOptions:
     seed: int
     log_dir: Path
     rescuer: str = "literal"
+    variant: Variant = USUAL
+    drawn: Building | None = None
+    """The building before the variant; None where they are the same."""
+
+    def again(self) -> PlayOptions:
+        """The next mission: the next seed, and what follows from it."""
+        seed = self.seed + 1
+        if self.drawn is None:
+            return replace(self, seed=seed)
+        return replace(self, seed=seed, building=varied(self.drawn, self.variant, seed))
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -237,6 +248,7 @@ class AnaApp(Program, inherit_bindings=False):
             options.seed,
             options.log_dir,
             this_terminal(*self.size),
+            variant=options.variant,
         )
         return MissionScreen(LiveMission(run, journal), _path(journal))
 
@@ -258,6 +270,7 @@ class AnaApp(Program, inherit_bindings=False):
             this_terminal(*self.size),
             rescuer=who.name,
             build=OverheardCoach.build,
+            variant=options.variant,
         )
         coach = run.coach
         assert isinstance(coach, OverheardCoach)
@@ -285,7 +298,7 @@ class AnaApp(Program, inherit_bindings=False):
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         if message.what == "again" and self._options is not None:
-            self.play_mission(replace(self._options, seed=self._options.seed + 1))
+            self.play_mission(self._options.again())
         elif message.what == "replay":
             self.replay(message.journal)
         else:
