@@ -78,9 +78,12 @@ def mission_options(command: _Command) -> _Command:
 
 @click.command(name="play")
 @mission_options
-def play(**given: Any) -> int:
+@click.option(
+    "--now", is_flag=True, help="Start the clock at once, without the page before the mission."
+)
+def play(now: bool, **given: Any) -> int:
     """Play a mission now."""
-    return run_play(options_of(**given))
+    return run_play(options_of(**given), now=now)
 
 
 @click.command(name="replay")

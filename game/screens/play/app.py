@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, ClassVar
 
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
     from game.screens.play.replay_screen import ReplayScreen
     from game.screens.play.result import ResultScreen
+    from game.screens.play.start_screen import StartScreen
     from game.screens.play.watch_screen import WatchScreen
     from game.session.replay import Replay
 
@@ -153,7 +155,7 @@ class AnaApp(Program, inherit_bindings=False):
         self._remember(home.preferences)
         match message.what:
             case "play":
-                self.play_mission(self._chosen())
+                self.offer_mission(self._chosen())
             case "watch":
                 self.watch_mission(self._chosen())
             case "replay":
@@ -206,8 +208,22 @@ class AnaApp(Program, inherit_bindings=False):
 
     # --- missions -------------------------------------------------------------------------------
 
+    def offer_mission(self, options: PlayOptions) -> None:
+        """Say what the mission is about; a person plays it from the next key on."""
+        from game.screens.play.start_screen import StartScreen
+
+        self._options = options
+        begin = partial(self.play_mission, options)
+        self._replace(StartScreen(options.building, options.settings, options.spec, begin))
+
+    def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
+        if message.what == "start":
+            message.begin()
+        else:
+            self._step_back()
+
     def play_mission(self, options: PlayOptions) -> None:
-        """A person plays."""
+        """A person plays at once."""
         self._begin(options, lambda: self._mission(options))
 
     def watch_mission(self, options: PlayOptions) -> None:
@@ -285,7 +301,7 @@ class AnaApp(Program, inherit_bindings=False):
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         if message.what == "again" and self._options is not None:
-            self.play_mission(replace(self._options, seed=self._options.seed + 1))
+            self.offer_mission(replace(self._options, seed=self._options.seed + 1))
         elif message.what == "replay":
             self.replay(message.journal)
         else:
@@ -347,11 +363,17 @@ class AnaApp(Program, inherit_bindings=False):
         else:
             self.push_screen(screen)
 
+    @property
+    def _at_start(self) -> bool:
+        from game.screens.play.start_screen import StartScreen
+
+        return isinstance(self.screen, StartScreen)
+
     def _say_or_fail(self, title: str, error: AnaError) -> None:
         """Tell of an error where the user can go on from; leave with it where nothing is shown."""
         from game.screens.widgets.dialogs import Notice
 
-        if len(self.screen_stack) > 1:
+        if len(self.screen_stack) > 1 and (self._been_home or not self._at_start):
             self.push_screen(Notice(title, str(error), key="Back"))
         else:
             self.failure = error
@@ -370,9 +392,10 @@ def run_home() -> int:
     return _run(AnaApp(AnaApp.show_home))
 
 
-def run_play(options: PlayOptions) -> int:
-    """Play a mission at once, and go on from there."""
-    return _run(AnaApp(lambda app: app.play_mission(options), options))
+def run_play(options: PlayOptions, *, now: bool = False) -> int:
+    """Play a mission and go on from there; with `now`, at once, without the card before it."""
+    first = AnaApp.play_mission if now else AnaApp.offer_mission
+    return _run(AnaApp(lambda app: first(app, options), options))
 
 
 def run_watch(options: PlayOptions) -> int:

@@ -21,6 +21,7 @@ from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
 from game.screens.play.result import ResultScreen
+from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.canvas import Canvas, width
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question, TooSmall
@@ -228,7 +229,7 @@ async def test_a_mission_ends_in_a_result_that_can_be_replayed(open_app: Open) -
         await press(pilot, "home", "right", "q")
         assert showing(app, result)
         await press(pilot, "enter")
-        await until(pilot, MissionScreen)
+        await until(pilot, StartScreen)
 
 
 async def test_watching_is_said_to_be_simulated_and_comes_to_a_result(open_app: Open) -> None:
@@ -253,6 +254,8 @@ async def test_home_enter_plays_and_choices_are_remembered(open_app: Open, tmp_p
     async with open_app(AnaApp.show_home) as (_, pilot):
         home = await until(pilot, HomeScreen)
         await press(pilot, "down", "right", "down", "right", "up", "up", "enter")
+        await until(pilot, StartScreen)
+        await press(pilot, "enter")
         mission = await until(pilot, MissionScreen)
         assert mission.live.run.mission.building == load_building("foundry")
         assert (home.preferences.building, home.preferences.coach) == ("foundry", "knowledge")

@@ -11,6 +11,7 @@ from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
 from game.screens.play.result import ResultScreen
+from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question
 from game.screens.widgets.howto import HowToScreen
@@ -19,7 +20,7 @@ MOVING = frozenset("hjklwasd")
 """Letters that are other names of the arrows."""
 SCREENS = [
     Help, HomeScreen, HowToScreen, JournalsScreen, MissionScreen, Notice, Pause, Question,
-    ReplayScreen, ResultScreen, WatchScreen,
+    ReplayScreen, ResultScreen, StartScreen, WatchScreen,
 ]  # fmt: skip
 
 
