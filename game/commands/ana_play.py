@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -81,8 +82,15 @@ def mission_options(command: _Command) -> _Command:
 @click.option(
     "--now", is_flag=True, help="Start the clock at once, without the page before the mission."
 )
-def play(now: bool, **given: Any) -> int:
+@click.option(
+    "--text",
+    is_flag=True,
+    help="Play by typing lines and reading sentences, as with a screen reader; needs no screen.",
+)
+def play(now: bool, text: bool, **given: Any) -> int:
     """Play a mission now."""
+    if text:
+        return play_in_text(options_of(**given))
     return run_play(options_of(**given), now=now)
 
 
@@ -91,6 +99,21 @@ def play(now: bool, **given: Any) -> int:
 def replay_journal(journal: Path) -> int:
     """Replay the mission in JOURNAL, showing what the coach believed at each moment."""
     return run_replay(journal)
+
+
+def play_in_text(options: PlayOptions) -> int:
+    """Play a mission by the lines of the standard input."""
+    from game.screens.text.text_play import play_text, typed_lines
+
+    return play_text(
+        options.building,
+        options.settings,
+        options.spec,
+        options.seed,
+        options.log_dir,
+        typed_lines(),
+        sys.stdout,
+    )
 
 
 def options_of(
