@@ -241,8 +241,8 @@ class AnaApp(Program, inherit_bindings=False):
         self._replace(screen)
 
     def _mission(self, options: PlayOptions) -> MissionScreen:
+        from game.screens.play.free_play_screen import FreePlayScreen
         from game.screens.play.live import LiveMission
-        from game.screens.play.mission_screen import MissionScreen
         from game.screens.widgets.terminal import this_terminal
         from game.session.playing import start_free_play
 
@@ -254,7 +254,7 @@ class AnaApp(Program, inherit_bindings=False):
             options.log_dir,
             this_terminal(*self.size),
         )
-        return MissionScreen(LiveMission(run, journal), _path(journal))
+        return FreePlayScreen(LiveMission(run, journal), _path(journal))
 
     def _watching(self, options: PlayOptions) -> WatchScreen:
         from game.rescuers.catalogue import character

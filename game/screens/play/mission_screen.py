@@ -21,11 +21,10 @@ from game.journal.journal_error import JournalError
 from game.screens.play.live import LiveMission
 from game.screens.play.missionview import MissionView
 from game.screens.widgets.dialogs import Help, Notice, Pause, leave_question
-from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.statuspanel import next_change_ms
 from game.world.events import Action, LevelWish
 from game.world.observation import Observation
-from game.world.settings import Controls, MissionSettings
+from game.world.settings import Controls
 
 ASKED_S = 2.0
 """How long what the level key asked for stands on the screen."""
@@ -45,15 +44,6 @@ _ACTIONS: dict[Controls, dict[str, Action]] = {
         "triage": Action.TRIAGE,
     },
 }
-
-
-def mission_keys(rules: MissionSettings) -> list[tuple[str, str]]:
-    """The keys of a mission, as many as there are by its rules, each with what it does."""
-    turning = rules.controls == "turn"
-    walking = [("↑", "walk"), ("←→", "turn")] if turning else [("↑↓←→", "walk")]
-    words = [("+ -", "wording")] if rules.level_key else []
-    pause = [("P", "pause")] if rules.allow_pause else []
-    return [*walking, ("Space", "treat"), ("?", "help"), ("Q", "leave"), *pause, *words]
 
 
 class Finished(Message):
@@ -247,10 +237,6 @@ class MissionScreen(LiveScreen):
         Binding("plus,equals_sign", "ask('simpler')", "Simpler words", id="mission.simpler"),
         Binding("minus,underscore", "ask('shorter')", "Shorter words", id="mission.shorter"),
     ]
-
-    def compose(self) -> ComposeResult:
-        yield from super().compose()
-        yield KeyLine(*mission_keys(self.live.settings), id="keys")
 
     def action_act(self, name: str) -> None:
         action = _ACTIONS[self.live.settings.controls].get(name)

@@ -16,6 +16,7 @@ from game.errors import AnaError
 from game.journal.reader import read_journal
 from game.journal.records import Paused, SessionEnded, Unpaused
 from game.screens.play.app import AnaApp, PlayOptions, run_home, run_play
+from game.screens.play.free_play_screen import glossed
 from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
@@ -78,7 +79,7 @@ async def test_the_bar_shows_the_instruction(open_app: Open) -> None:
         mission = await until(pilot, MissionScreen)
         guidance = mission.live.observation().guidance
         assert guidance is not None and guidance.text
-        assert guidance.text in shown(mission)
+        assert glossed(guidance.text) in shown(mission)
 
 
 async def test_free_play_pauses_and_a_study_mission_does_not(open_app: Open) -> None:

@@ -11,14 +11,16 @@ from game.coach.spec import parse_coach
 from game.journal.reader import read_journal
 from game.journal.records import Paused
 from game.screens.play.app import AnaApp, PlayOptions
+from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
 from game.screens.play.home import HomeScreen
-from game.screens.play.mission_screen import MissionScreen, mission_keys
+from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import width
 from game.screens.widgets.dialogs import Help
 from game.screens.widgets.keyline import KeyLine
+from game.session.playing import start_in_memory
 from game.world.building import Building
-from game.world.events import Acted
+from game.world.events import Acted, Action
 from game.world.settings import FREE_PLAY, MissionSettings
 from tests.screens.pilots import Open, painted, press, shown, until
 
@@ -99,3 +101,44 @@ def test_only_keys_that_do_something_are_named() -> None:
     assert set(named) == {"↑↓←→", "Space", "?", "Q", "P", "+ -"}
     assert "P" not in dict(mission_keys(MissionSettings(allow_pause=False)))
     assert "+ -" not in dict(mission_keys(MissionSettings()))
+
+
+async def test_the_bar_names_the_key(open_app: Open) -> None:
+    async with open_app() as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        assert "Utilize medical equipment (space)." in shown(mission)
+
+
+def test_the_key_is_named_until_it_was_used_once(ward: Building) -> None:
+    run, _ = start_in_memory(
+        ward, MissionSettings(), parse_coach("static", 1), 1, rescuer="literal"
+    )
+    gloss = Gloss()
+
+    def bar() -> str:
+        guidance = gloss.of(run.observation()).guidance
+        assert guidance is not None
+        return guidance.text
+
+    for step in range(6):
+        assert "(space)" in bar()
+        run.press(Action.EAST, 200 * step)
+    run.press(Action.TRIAGE, 1_200)
+    assert "(space)" in bar(), "what stands there is not said anew"
+    run.advance(8_000)
+    assert run.mission.rescued == 1
+    assert "Utilize medical equipment." in bar() and "(space)" not in bar()
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Turn left.", "Turn left."),
+        ("Stop. Utilize medical equipment.", "Stop. Utilize medical equipment (space)."),
+        ("Approach and save the red victim.", "Approach and save the red victim (space)."),
+        ("Triage the blue victim.", "Triage the blue victim (space)."),
+        ("Go to the Triage Room.", "Go to the Triage Room."),
+    ],
+)
+def test_every_way_of_asking_for_the_key_is_explained(text: str, told: str) -> None:
+    assert glossed(text) == told
