@@ -83,15 +83,21 @@ def mission_options(command: _Command) -> _Command:
     "--now", is_flag=True, help="Start the clock at once, without the page before the mission."
 )
 @click.option(
+    "--memorise",
+    type=click.IntRange(0, 3600),
+    default=0,
+    metavar="SECONDS",
+    help="Show the map with the rooms' names for so long first.",
+)
+@click.option(
     "--text",
     is_flag=True,
     help="Play by typing lines and reading sentences, as with a screen reader; needs no screen.",
 )
-def play(now: bool, text: bool, **given: Any) -> int:
+def play(now: bool, text: bool, memorise: int, **given: Any) -> int:
     """Play a mission now."""
-    if text:
-        return play_in_text(options_of(**given))
-    return run_play(options_of(**given), now=now)
+    options = replace(options_of(**given), now=now, memorise_ms=1000 * memorise)
+    return play_in_text(options) if text else run_play(options)
 
 
 @click.command(name="replay")
@@ -113,6 +119,7 @@ def play_in_text(options: PlayOptions) -> int:
         options.log_dir,
         typed_lines(),
         sys.stdout,
+        memorise_ms=options.memorise_ms,
     )
 
 

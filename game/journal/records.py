@@ -144,7 +144,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
     coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
-    one that judges what the rescuer knows.
+    one that judges what the rescuer knows. `memorised_ms` is how long the map with the rooms' names
+    was shown just before, in free play (a study records that as a phase of its own).
     """
 
     building: str
@@ -156,6 +157,7 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     seed: int
     rules_version: int
     assumed: Assumed | None = None
+    memorised_ms: int = 0
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

@@ -8,6 +8,8 @@ from pathlib import Path
 from secrets import token_hex
 from typing import Literal
 
+from msgspec import structs
+
 from game.coach.api import Briefing, Coach
 from game.coach.presets import Preset, preset
 from game.coach.spec import CoachSpec, assumed_of, build_coach
@@ -43,8 +45,10 @@ def start_free_play(
     rescuer: str = PERSON,
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
+    memorised_ms: int = 0,
 ) -> tuple[MissionRun, Journal]:
-    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
+    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`. The map with names
+    was shown for `memorised_ms` before.
 
     Raises JournalError if the journal cannot be written.
     """
@@ -53,7 +57,10 @@ def start_free_play(
     session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
     opening = _free_play(session, settings, seed, terminal, rescuer)
     journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
-    return begin_mission(journal, building, settings, spec, seed, build=build), journal
+    run = begin_mission(
+        journal, building, settings, spec, seed, build=build, memorised_ms=memorised_ms
+    )
+    return run, journal
 
 
 def start_in_memory(
@@ -84,6 +91,7 @@ def begin_mission(
     seed: int,
     *,
     build: CoachBuilder = build_coach,
+    memorised_ms: int = 0,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
@@ -92,7 +100,8 @@ def begin_mission(
     if journal.phase == "session":
         journal.enter("mission")
     run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    journal.append(mission_started(building, settings, spec, seed))
+    started = mission_started(building, settings, spec, seed)
+    journal.append(structs.replace(started, memorised_ms=memorised_ms))
     run.begin()
     return run
 

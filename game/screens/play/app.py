@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
     from game.screens.play.live import LiveMission
+    from game.screens.play.map_screen import MapScreen
     from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
     from game.screens.play.replay_screen import ReplayScreen
     from game.screens.play.result import ResultScreen
@@ -62,6 +63,10 @@ class PlayOptions:
     seed: int
     log_dir: Path
     rescuer: str = "literal"
+    memorise_ms: int = 0
+    """For how long the map is shown first, to a person."""
+    now: bool = False
+    """Whether the clock starts at once, without the page before the mission."""
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -204,17 +209,36 @@ class AnaApp(Program, inherit_bindings=False):
             settings,
             seed,
             self._log_dir(),
+            memorise_ms=1000 * self.preferences.memorise,
         )
 
     # --- missions -------------------------------------------------------------------------------
 
     def offer_mission(self, options: PlayOptions) -> None:
-        """Say what the mission is about; a person plays it from the next key on."""
-        from game.screens.play.start_screen import StartScreen
+        """What comes before a mission, and then the mission: the map, where it is wanted, and the
+        page that says what the mission is about."""
+        from game.screens.play.map_screen import MapScreen
 
         self._options = options
-        begin = partial(self.play_mission, options)
-        self._replace(StartScreen(options.building, options.settings, options.spec, begin))
+        if options.memorise_ms:
+            self._replace(MapScreen(options.building, options.memorise_ms))
+        else:
+            self._introduce(options)
+
+    def on_map_screen_seen(self, message: MapScreen.Seen) -> None:
+        if message.shown_ms is None:
+            self._step_back()
+        elif self._options is not None:
+            self._introduce(self._options, message.shown_ms)
+
+    def _introduce(self, options: PlayOptions, memorised_ms: int = 0) -> None:
+        from game.screens.play.start_screen import StartScreen
+
+        begin = partial(self.play_mission, options, memorised_ms)
+        if options.now:
+            begin()
+        else:
+            self._replace(StartScreen(options.building, options.settings, options.spec, begin))
 
     def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
         if message.what == "start":
@@ -222,9 +246,9 @@ class AnaApp(Program, inherit_bindings=False):
         else:
             self._step_back()
 
-    def play_mission(self, options: PlayOptions) -> None:
-        """A person plays at once."""
-        self._begin(options, lambda: self._mission(options))
+    def play_mission(self, options: PlayOptions, memorised_ms: int = 0) -> None:
+        """A person plays at once, who saw the map for so long before."""
+        self._begin(options, lambda: self._mission(options, memorised_ms))
 
     def watch_mission(self, options: PlayOptions) -> None:
         """A simulated rescuer plays."""
@@ -240,7 +264,7 @@ class AnaApp(Program, inherit_bindings=False):
         self.live = screen.live
         self._replace(screen)
 
-    def _mission(self, options: PlayOptions) -> MissionScreen:
+    def _mission(self, options: PlayOptions, memorised_ms: int) -> MissionScreen:
         from game.screens.play.free_play_screen import FreePlayScreen
         from game.screens.play.live import LiveMission
         from game.screens.widgets.terminal import this_terminal
@@ -253,6 +277,7 @@ class AnaApp(Program, inherit_bindings=False):
             options.seed,
             options.log_dir,
             this_terminal(*self.size),
+            memorised_ms=memorised_ms,
         )
         return FreePlayScreen(LiveMission(run, journal), _path(journal))
 
@@ -301,7 +326,9 @@ class AnaApp(Program, inherit_bindings=False):
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         if message.what == "again" and self._options is not None:
-            self.offer_mission(replace(self._options, seed=self._options.seed + 1))
+            self.offer_mission(
+                replace(self._options, seed=self._options.seed + 1, memorise_ms=0, now=False)
+            )
         elif message.what == "replay":
             self.replay(message.journal)
         else:
@@ -392,10 +419,9 @@ def run_home() -> int:
     return _run(AnaApp(AnaApp.show_home))
 
 
-def run_play(options: PlayOptions, *, now: bool = False) -> int:
-    """Play a mission and go on from there; with `now`, at once, without the card before it."""
-    first = AnaApp.play_mission if now else AnaApp.offer_mission
-    return _run(AnaApp(lambda app: first(app, options), options))
+def run_play(options: PlayOptions) -> int:
+    """Play a mission, and go on from there."""
+    return _run(AnaApp(lambda app: app.offer_mission(options), options))
 
 
 def run_watch(options: PlayOptions) -> int:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from game.rescuers.literal.grammar import Landmark
 from game.rescuers.literal.looking import abreast, floor_around, in_view, same, would_treat
 from game.screens.text.phrases import clock_words, counted, joined
+from game.world.building import Building
 from game.world.floodfill import cost_to_go
 from game.world.geometry import Cell, Heading
 from game.world.observation import Observation, SeenVictim, VictimState
@@ -123,6 +124,15 @@ def building_map(now: Observation, ahead: Heading) -> list[str]:
         seen = "seen" if any(now.explored >> plan.index(cell) & 1 for cell in door) else "not seen"
         where = place(ahead, now.position, _nearest(now.position, door))
         lines.append(f"A door, {seen}: {where}, {counted(int(away), 'step')} to walk.")
+    return lines
+
+
+def rooms_of(building: Building) -> list[str]:
+    """The map with the rooms' names: where the middle of each is from the start."""
+    lines = [f"The rooms of {building.name}, from where you start, facing north:"]
+    for room in building.rooms:
+        where = place(Heading.NORTH, building.start, room.label)
+        lines.append(f"{room.name}: {where}; {counted(len(room.doors), 'door')}.")
     return lines
 
 

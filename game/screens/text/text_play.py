@@ -17,6 +17,7 @@ from game.journal.reader import read_journal
 from game.journal.sink import FileSink
 from game.journal.writer import Journal
 from game.screens.text.phrases import clock_words
+from game.screens.text.surroundings import rooms_of
 from game.screens.text.text_mission import HeardEvents, TextMission
 from game.session.playing import start_free_play
 from game.world.building import Building, Severity
@@ -34,17 +35,25 @@ def play_text(
     log_dir: Path,
     lines: Iterable[str],
     out: TextIO,
+    *,
+    memorise_ms: int = 0,
 ) -> int:
     """Play a mission by `lines`, telling it to `out`; the exit status. The end of the lines, or an
-    interrupt, leaves the mission. Raises JournalError if the journal cannot be written."""
+    interrupt, leaves the mission. With `memorise_ms` it is first told where the rooms are.
+
+    Raises JournalError if the journal cannot be written.
+    """
     run, journal = start_free_play(
-        building, settings, spec, seed, log_dir, None, build=HeardEvents.build
-    )
+        building, settings, spec, seed, log_dir, None,
+        build=HeardEvents.build, memorised_ms=memorise_ms,
+    )  # fmt: skip
     assert isinstance(run.coach, HeardEvents)
     mission = TextMission(run, run.coach, journal, lambda line: print(line, file=out, flush=True))
     _record_signals(journal)
     status = 0
     try:
+        for line in rooms_of(building) if memorise_ms else ():
+            print(line, file=out, flush=True)
         mission.begin()
         _take_all(mission, lines, out)
     except KeyboardInterrupt:

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from game.coach.spec import parse_coach
+from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.journal.records import Paused
 from game.screens.play.app import AnaApp, PlayOptions
 from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
 from game.screens.play.home import HomeScreen
+from game.screens.play.map_screen import MapScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import width
-from game.screens.widgets.dialogs import Help
+from game.screens.widgets.dialogs import Help, TooSmall
 from game.screens.widgets.keyline import KeyLine
 from game.session.playing import start_in_memory
+from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
 from game.world.settings import FREE_PLAY, MissionSettings
@@ -142,3 +146,56 @@ def test_the_key_is_named_until_it_was_used_once(ward: Building) -> None:
 )
 def test_every_way_of_asking_for_the_key_is_explained(text: str, told: str) -> None:
     assert glossed(text) == told
+
+
+def with_map(app: AnaApp) -> None:
+    assert app._options is not None
+    app.offer_mission(replace(app._options, memorise_ms=600))
+
+
+async def test_a_map_first_goes_by_itself_and_is_recorded(open_app: Open) -> None:
+    async with open_app(with_map) as (_, pilot):
+        await until(pilot, StartScreen)
+        await press(pilot, "space")
+        mission = await until(pilot, MissionScreen)
+        played = read_history(read_journal(mission.journal)).missions[0]
+        assert played.started.memorised_ms == 600
+        assert mission.live.observation().time_ms < 1_000
+
+
+async def test_the_map_can_be_left_early_and_its_time_stands_still_when_covered(
+    open_app: Open, ward: Building
+) -> None:
+    def first(app: AnaApp) -> None:
+        assert app._options is not None
+        app.offer_mission(replace(app._options, memorise_ms=3_600_000, now=True))
+
+    async with open_app(first, building=load_building("harbour")) as (_, pilot):
+        page = await until(pilot, MapScreen)
+        assert "Archive" in painted(page) and "Board Room" in painted(page)
+        frame = page.query_one(".map")
+        await press(pilot, "down", "down", "right")
+        assert frame.scroll_y > 0 and frame.scroll_x > 0, "it is larger than the window"
+        await pilot.resize_terminal(60, 20)
+        await until(pilot, TooSmall)
+        before = page._clock.now_ms()
+        await asyncio.sleep(0.05)
+        assert page._clock.now_ms() == before
+        await pilot.resize_terminal(80, 24)
+        await until(pilot, MapScreen)
+        await press(pilot, "enter")
+        mission = await until(pilot, MissionScreen)
+        played = read_history(read_journal(mission.journal)).missions[0]
+        assert 0 < played.started.memorised_ms < 3_600_000
+
+
+async def test_back_from_the_map_begins_nothing(open_app: Open, tmp_path: Path) -> None:
+    async with open_app(AnaApp.show_home) as (_, pilot):
+        home = await until(pilot, HomeScreen)
+        await press(pilot, "down", "down", "down", "right")
+        assert home.preferences.memorise == 60
+        await press(pilot, "p")
+        await until(pilot, MapScreen)
+        await press(pilot, "escape")
+        await until(pilot, HomeScreen)
+        assert not list(tmp_path.glob("*/journal.jsonl"))

@@ -54,8 +54,9 @@ def play(
     assert play_text(building, settings, spec, 7, folder, lines, out) == 0
 
 
-@pytest.mark.parametrize("controls", ["compass", "turn"])
-@pytest.mark.parametrize("name", ["practice", "harbour", "foundry"])
+@pytest.mark.parametrize(
+    ("name", "controls"), [("practice", "turn"), ("harbour", "compass"), ("foundry", "turn")]
+)
 def test_typing_what_the_bar_says_plays_the_whole_mission(
     name: str, controls: str, tmp_path: Path
 ) -> None:
@@ -187,3 +188,12 @@ def test_leaving_asks_once_and_the_end_of_the_lines_leaves(ward: Building, tmp_p
 def test_names_and_people_out_of_sight_are_not_told(ward: Building, tmp_path: Path) -> None:
     told = "".join(answers(ward, tmp_path, "look", "map", "seen", "status"))
     assert "Test Lab" not in told and "Records Room" not in told and "victim:" not in told
+
+
+def test_a_map_first_says_where_the_rooms_are(ward: Building, tmp_path: Path) -> None:
+    out = io.StringIO()
+    spec = parse_coach("static", 3)
+    play_text(ward, MissionSettings(), spec, 7, tmp_path, [], out, memorise_ms=60_000)
+    told = out.getvalue().splitlines()
+    assert told[1:3] == ["Records Room: 7 left; 1 door.", "Test Lab: 6 right; 1 door."]
+    assert mission_of(tmp_path).started.memorised_ms == 60_000
