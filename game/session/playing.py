@@ -34,6 +34,26 @@ CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
 """Builds a coach from its description; pass another to play with a coach of your own."""
 
 
+def open_free_play(
+    settings: MissionSettings,
+    seed: int,
+    log_dir: Path,
+    terminal: Terminal | None,
+    *,
+    rescuer: str = PERSON,
+    clock: Clock | None = None,
+) -> Journal:
+    """A journal of free play in a new folder of `log_dir`, without a mission yet.
+
+    Raises JournalError if it cannot be written.
+    """
+    clock = clock or SystemClock()
+    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
+    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
+    opening = _free_play(session, settings, seed, terminal, rescuer)
+    return Journal.create(log_dir / session / JOURNAL, opening, clock)
+
+
 def start_free_play(
     building: Building,
     settings: MissionSettings,
@@ -52,11 +72,7 @@ def start_free_play(
 
     Raises JournalError if the journal cannot be written.
     """
-    clock = clock or SystemClock()
-    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
-    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
-    opening = _free_play(session, settings, seed, terminal, rescuer)
-    journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
+    journal = open_free_play(settings, seed, log_dir, terminal, rescuer=rescuer, clock=clock)
     run = begin_mission(
         journal, building, settings, spec, seed, build=build, memorised_ms=memorised_ms
     )

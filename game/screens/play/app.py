@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
     from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
+    from game.screens.play.lesson_screen import LessonOver
     from game.screens.play.live import LiveMission
     from game.screens.play.map_screen import MapScreen
     from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
@@ -90,6 +91,7 @@ class AnaApp(Program, inherit_bindings=False):
         self._first = first
         self._options = options
         self.live: LiveMission | None = None
+        self._lessons: Generator[Screen[None]] | None = None
         self._been_home = False
         self._opened = False
 
@@ -161,6 +163,8 @@ class AnaApp(Program, inherit_bindings=False):
         match message.what:
             case "play":
                 self.offer_mission(self._chosen())
+            case "tutorial":
+                self.teach()
             case "watch":
                 self.watch_mission(self._chosen())
             case "replay":
@@ -211,6 +215,46 @@ class AnaApp(Program, inherit_bindings=False):
             self._log_dir(),
             memorise_ms=1000 * self.preferences.memorise,
         )
+
+    # --- the tutorial ---------------------------------------------------------------------------
+
+    def teach(self) -> None:
+        """Go through the tutorial."""
+        from game.screens.play.tutorial import Tutorial
+        from game.screens.widgets.terminal import this_terminal
+
+        rules = self._options.settings if self._options else FREE_PLAY
+        tutorial = Tutorial(self._log_dir(), this_terminal(*self.size), rules)
+        self._lessons = tutorial.screens()
+        self._teach_on()
+
+    def on_lesson_over(self, message: LessonOver) -> None:
+        self.live = None
+        if message.go_on:
+            self._teach_on()
+        else:
+            self._stop_teaching()
+
+    def _teach_on(self) -> None:
+        from game.screens.play.tutorial import LegScreen
+
+        assert self._lessons is not None
+        try:
+            screen = next(self._lessons, None)
+        except AnaError as error:
+            self._say_or_fail("The tutorial cannot go on", error)
+            return
+        if screen is None:
+            self._stop_teaching()
+            return
+        self.live = screen.live if isinstance(screen, LegScreen) else None
+        self._replace(screen)
+
+    def _stop_teaching(self) -> None:
+        lessons, self._lessons = self._lessons, None
+        if lessons is not None:
+            lessons.close()
+        self._step_back()
 
     # --- missions -------------------------------------------------------------------------------
 

@@ -75,6 +75,7 @@ def menu_items(preferences: Preferences) -> tuple[Item, ...]:
         Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
         Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
+        Item("tutorial", "Tutorial, three minutes"),
         Item("watch", "Watch a simulated rescuer"),
         Item("replay", "Replay a mission"),
         Item("howto", "How to play"),

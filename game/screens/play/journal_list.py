@@ -40,6 +40,8 @@ def journal_text(path: Path) -> str:
     if not played:
         return "no mission"
     first = played[0]
+    if first.step.phase == "practice":
+        return "tutorial"
     rescued = sum(fate == "rescued" for fate, _ in first.fates.values())
     parts = [first.started.building, coach_name(first.started.coach), f"{rescued} rescued"]
     if first.end == "abandoned":
