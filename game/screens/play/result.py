@@ -128,7 +128,7 @@ def _fate_row(story: MissionStory, fate: Fate, columns: int) -> Row:
 
 def result_rows(story: MissionStory, columns: int, rows: int, *, filled: bool) -> list[Row]:
     """The whole page, `columns` wide; what matters most is within the first `rows`."""
-    area = [*path_map(story, columns=columns, filled=filled), legend_row(story)]
+    area = [*path_map(story, columns=columns, filled=filled), legend_row(story, filled=filled)]
     area_columns = max(map(width, area)) + 2
     head = [BLANK, *total_rows(story), BLANK]
     constant = constant_level(story)
