@@ -178,7 +178,8 @@ class AnaApp(Program, inherit_bindings=False):
                 self.exit()
 
     def _choose_journal(self) -> None:
-        from game.screens.play.journal_list import JournalsScreen, newest_journals
+        from game.screens.play.journal_list import JournalsScreen
+        from game.screens.play.past_missions import newest_journals
 
         journals = newest_journals(self._log_dir())
         self.push_screen(JournalsScreen(journals), self._replay_chosen)
@@ -369,14 +370,33 @@ class AnaApp(Program, inherit_bindings=False):
             self._step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
+        result = message.sender
         if message.what == "again" and self._options is not None:
             self.offer_mission(
                 replace(self._options, seed=self._options.seed + 1, memorise_ms=0, now=False)
             )
         elif message.what == "replay":
-            self.replay(message.journal)
+            self.replay(result.journal)
+        elif message.what == "card":
+            self._make_card(result)
         else:
             self.show_home()
+
+    def _make_card(self, result: ResultScreen) -> None:
+        """Copy a result to the clipboard, and write it beside its journal."""
+        from game.screens.play.result_card import card_svg, card_text
+        from game.screens.widgets.dialogs import Notice
+
+        text, folder = card_text(result.story), result.journal.parent
+        self.copy_to_clipboard(text)
+        try:
+            (folder / "card.txt").write_text(text + "\n", encoding="utf-8")
+            (folder / "card.svg").write_text(card_svg(result.story), encoding="utf-8")
+            told = f"Also as card.txt and as a picture, card.svg, in\n{folder}"
+        except OSError as error:
+            told = f"It could not be written to {folder} ({error.strerror})."
+        title = "Copied, if your terminal allows it"
+        self.push_screen(Notice(title, f"{text}\n\n{told}", key="Back", wide=True))
 
     # --- replay ---------------------------------------------------------------------------------
 

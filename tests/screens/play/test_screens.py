@@ -21,7 +21,7 @@ from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
-from game.screens.play.result import ResultScreen
+from game.screens.play.result import STILL_S, ResultScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.canvas import Canvas, width
@@ -222,7 +222,7 @@ async def test_a_mission_ends_in_a_result_that_can_be_replayed(open_app: Open) -
         assert "journal.jsonl" in page
         await press(pilot, "r")
         assert showing(app, result), "the first keys were meant for the mission"
-        await asyncio.sleep(0.9)
+        await asyncio.sleep(STILL_S + 0.1)
         await press(pilot, "r")
         replay = await until(pilot, ReplayScreen)
         await press(pilot, "space", "end")
