@@ -40,11 +40,12 @@ from game.screens.study.label import LabelScreen
 from game.screens.study.likert import LikertScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import Reminder, StudyMissionScreen
-from game.screens.study.pages import PageScreen, Signs
+from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall
 from game.screens.study.reason import MOST_LETTERS, ReasonScreen
 from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.dialogs import Question
+from game.screens.widgets.signs import Signs
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
 from game.tables.session_tables import session_tables
