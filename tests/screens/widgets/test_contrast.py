@@ -79,7 +79,10 @@ def contrast(one: str, other: str, eyes: Matrix) -> float:
 @pytest.mark.parametrize("name", TODAY)
 def test_colours_can_be_told_apart(name: str, eyes: str) -> None:
     inks = TODAY[name].variables
-    found = {pair: contrast(*(inks[f"ana-{ink}"] for ink in pair), EYES[eyes]) for pair in LEAST}
+    found = {
+        (one, other): contrast(inks[f"ana-{one}"], inks[f"ana-{other}"], EYES[eyes])
+        for one, other in LEAST
+    }
     assert {pair: round(it, 2) for pair, it in found.items() if it < LEAST[pair]} == {}
 
 
