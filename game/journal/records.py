@@ -144,7 +144,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
     coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
-    one that judges what the rescuer knows.
+    one that judges what the rescuer knows. `instructions_text` is the whole instructions.toml that
+    the coach speaks by, None for the shipped English.
     """
 
     building: str
@@ -156,6 +157,7 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     seed: int
     rules_version: int
     assumed: Assumed | None = None
+    instructions_text: str | None = None
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

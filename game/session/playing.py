@@ -9,6 +9,8 @@ from secrets import token_hex
 from typing import Literal
 
 from game.coach.api import Briefing, Coach
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english, text_to_keep
 from game.coach.presets import Preset, preset
 from game.coach.spec import CoachSpec, assumed_of, build_coach
 from game.journal.clock import Clock, SystemClock, VirtualClock
@@ -83,22 +85,28 @@ def begin_mission(
     spec: CoachSpec,
     seed: int,
     *,
+    phrases: Phrasebook | None = None,
     build: CoachBuilder = build_coach,
 ) -> MissionRun:
-    """Begin a mission at 0 ms in a journal that is already open.
+    """Begin a mission at 0 ms in a journal that is already open. The coach speaks by `phrases`
+    (None: the shipped English).
 
     Outside a study the records belong to the phase `mission`; in a study, to the journal's phase.
     """
     if journal.phase == "session":
         journal.enter("mission")
-    run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    journal.append(mission_started(building, settings, spec, seed))
+    run = assemble(building, settings, spec, seed, journal.extend, phrases=phrases, build=build)
+    journal.append(mission_started(building, settings, spec, seed, phrases))
     run.begin()
     return run
 
 
 def mission_started(
-    building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    phrases: Phrasebook | None = None,
 ) -> MissionStarted:
     """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
@@ -111,6 +119,7 @@ def mission_started(
         seed=seed,
         rules_version=RULES_VERSION,
         assumed=assumed_of(spec),
+        instructions_text=text_to_keep(phrases),
     )
 
 
@@ -126,10 +135,11 @@ def assemble(
     seed: int,
     record: Recorder,
     *,
+    phrases: Phrasebook | None = None,
     build: CoachBuilder = build_coach,
 ) -> MissionRun:
     """A mission with its coach, not yet begun; `record` receives everything that happens."""
-    coach = build(spec, Briefing(building, settings, seed))
+    coach = build(spec, Briefing(building, settings, seed, phrases or english()))
     return MissionRun(Mission(building, settings), coach, record)
 
 

@@ -46,6 +46,7 @@ def play_session(study: Study, taken: SlotTaken, population: Population) -> byte
         copy=study.copy,
         texts=study.texts,
         items=study.items,
+        phrases=study.phrases,
         buildings=study.buildings,
         practice=study.practice,
         inputs=study.inputs,

@@ -1,6 +1,6 @@
 """A study's folder: its settings, texts, buildings, ledger and sessions.
 
-DIR/study.toml, texts.toml, items.toml      edited by the lab
+DIR/study.toml, texts.toml, items.toml, instructions.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
 DIR/versions/                               every version of what sessions were made from
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
@@ -20,6 +20,8 @@ from pathlib import Path
 from secrets import randbelow
 from typing import NamedTuple
 
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english, parse_phrasebook
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
 from game.journal.folders import SESSIONS
@@ -46,6 +48,8 @@ from game.world.building import Building
 from game.world.fitness import shortcomings
 
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
+INSTRUCTIONS = "instructions.toml"
+"""What the instructors say; older folders lack it, and mean the shipped English."""
 VERSIONS = "versions"
 """Copies of everything that sessions were made from."""
 ROSTER = "roster.csv"
@@ -76,6 +80,7 @@ class Study:
     copy: StudyCopy
     texts: Texts
     items: Items
+    phrases: Phrasebook
     buildings: tuple[Building, Building]
     practice: Building
     inputs: Mapping[str, str]
@@ -218,15 +223,19 @@ def new_study(
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
                 text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
-            path = folder / name
-            path.touch(mode=0o600)
-            path.write_text(text, encoding="utf-8")
+            _write_new(folder / name, text)
+        _write_new(folder / INSTRUCTIONS, english().text)
     except OSError as error:
         raise StudyError(
             f"the folder cannot be created ({error.strerror})", place=str(folder)
         ) from error
     _, digest = read_settings(folder / SETTINGS)
     Ledger(folder / LEDGER, now).create(seed, blocks, digest)
+
+
+def _write_new(path: Path, text: str) -> None:
+    path.touch(mode=0o600)
+    path.write_text(text, encoding="utf-8")
 
 
 def open_study(folder: Path) -> Study:
@@ -239,6 +248,7 @@ def open_study(folder: Path) -> Study:
     entries = Ledger(folder / LEDGER).entries()
     _same_as_created(settings, entries, path)
     texts, items = read_texts(folder / TEXTS), read_items(folder / ITEMS)
+    phrases = read_phrasebook(folder / INSTRUCTIONS)
     first, second = (_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(
@@ -247,12 +257,14 @@ def open_study(folder: Path) -> Study:
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=texts,
         items=items,
+        phrases=phrases,
         buildings=(first, second),
         practice=practice,
         inputs={
             SETTINGS: digest,
             TEXTS: _digest(folder / TEXTS),
             ITEMS: _digest(folder / ITEMS),
+            **_digest_if_there(folder / INSTRUCTIONS),
             **{name_of(building): building.hash for building in (first, second, practice)},
         },
     )
@@ -284,6 +296,24 @@ def name_of(building: Building) -> str:
 
 def _ending(name: str) -> str:
     return Path(name).suffix or ".txt"
+
+
+def read_phrasebook(path: Path) -> Phrasebook:
+    """The sentences in `path`; the shipped English where there is no such file. Raises
+    PhrasebookError, naming the line, or StudyError where the file cannot be read."""
+    try:
+        return parse_phrasebook(path.read_text(encoding="utf-8-sig"), str(path))
+    except FileNotFoundError:
+        return english()
+    except OSError as error:
+        message = f"the instructions cannot be read ({error.strerror})"
+        raise StudyError(message, place=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise StudyError("the file is not UTF-8 text", place=str(path)) from error
+
+
+def _digest_if_there(path: Path) -> dict[str, str]:
+    return {path.name: _digest(path)} if path.exists() else {}
 
 
 def _digest(path: Path) -> str:

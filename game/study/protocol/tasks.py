@@ -213,7 +213,10 @@ class Playing:
 
     def begin(self) -> MissionRun:
         """Begin the mission, at 0 ms."""
-        self.run = begin_mission(self.journal, self.building, self.settings, self.spec, self._seed)
+        self.run = begin_mission(
+            self.journal, self.building, self.settings, self.spec, self._seed,
+            phrases=self._session.study.phrases,
+        )  # fmt: skip
         return self.run
 
     @property
