@@ -35,6 +35,7 @@ from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
 from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study, StudyError
+from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
@@ -237,6 +238,17 @@ async def rehearse(study: Study) -> list[Rehearsed]:
 def rehearsed(study: Study) -> list[Rehearsed]:
     """The same, without an event loop around."""
     return asyncio.run(rehearse(study))
+
+
+def found_wrong(study: Study) -> tuple[list[str], list[Rehearsed]]:
+    """Everything that `ana study check` finds wrong, in words, and the pages that it opened."""
+    pages = rehearsed(study)
+    hidden = [
+        f"page {page.name}: these words are cut off or hidden: {' '.join(page.missing)}"
+        for page in pages
+        if page.missing
+    ]
+    return [*shortfalls(study), *hidden], pages
 
 
 def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
