@@ -97,7 +97,8 @@ def check_study(folder: Path, pictures: Path | None) -> int:
 
     Exit status 2 where something would go wrong.
     """
-    from game.screens.study.rehearsal import found_wrong, write_pictures
+    from game.screens.study.pictures import write_pictures
+    from game.screens.study.rehearsal import found_wrong
     from game.study.folder import open_study
 
     study = open_study(folder)
@@ -281,8 +282,10 @@ def write_dataset(
 @click.option("--account", help="The participants' account.  [default: the owner of DIR]")
 @click.option("--port", type=click.IntRange(1, 65535), help="The port of a local test server.")
 @click.option("--keys", type=click.Path(path_type=Path), help="The folder of that server's keys.")
+@click.option("--check/--no-check", "check", default=True, show_default=True,
+              help="Also tell what `ana study check` finds wrong.")  # fmt: skip
 def print_ssh_configuration(
-    folder: Path, account: str | None, port: int | None, keys: Path | None
+    folder: Path, account: str | None, port: int | None, keys: Path | None, *, check: bool
 ) -> None:
     """Print the OpenSSH configuration that lets participants into the study DIR.
 
@@ -299,8 +302,7 @@ def print_ssh_configuration(
     loopback = None if port is None or keys is None else LoopbackServer(port, keys)
     user = account or (folder.owner() if loopback is None else getpass.getuser())
     click.echo(configuration(folder, user, program(), loopback), nl=False)
-    wrong, _ = found_wrong(study)
-    for one in wrong:
+    for one in found_wrong(study)[0] if check else ():
         _red(f"{folder}: {one}")
 
 
