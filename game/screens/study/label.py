@@ -13,7 +13,6 @@ from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.planmap import PlanMap
 from game.screens.study.timed import TICK_S, TimeLine
 from game.screens.widgets.canvas import BLANK, Canvas, Row
-from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Labelling
 from game.world.building import Room
@@ -73,10 +72,10 @@ class LabelScreen(StudyScreen[bool]):
         names = NameList(words.finish)
         keys = KeyLine(
             ("↑ ↓", words.choose),
-            ("Enter", words.answer),
+            (frame.keys.enter, words.answer),
             ("← →", words.next),
-            ("A-Z", words.filter),
-            ("Del", words.clear),
+            (frame.keys.letters, words.filter),
+            (frame.keys.delete, words.clear),
             id="keys",
         )
         columns = Horizontal(plan, Vertical(names, classes="name-column"), classes="side-by-side")
@@ -208,9 +207,8 @@ class LabelScreen(StudyScreen[bool]):
         words = self.frame.words
         missing = len(self.labelling.rooms) - len(self.labelling.given)
         text = words.finish_text.replace("{count}", str(missing))
-        self.app.push_screen(
-            Question(words.finish_title, text, yes=words.yes, no=words.no), self._finished
-        )
+        question = self.frame.question(words.finish_title, text, yes=words.yes, no=words.no)
+        self.app.push_screen(question, self._finished)
 
     def _finished(self, sure: bool | None) -> None:
         if sure:

@@ -7,6 +7,7 @@ from typing import ClassVar
 from textual.binding import Binding, BindingType
 from textual.widget import Widget
 
+from game.mission_words import ENGLISH, MissionWords
 from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.widgets.canvas import BLANK, Canvas
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES
@@ -40,7 +41,7 @@ class PageScreen(StudyScreen[bool]):
 
     def _shown(self) -> None:
         self._note_read()
-        self.show_keys(("Enter", self.frame.words.go_on))
+        self.show_keys((self.frame.keys.enter, self.frame.words.go_on))
 
     def _note_read(self) -> None:
         self._read_rows = max(self._read_rows, self._column.rows_in_view.stop)
@@ -60,11 +61,12 @@ class Signs(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "key"}
 
-    def __init__(self, rules: MissionSettings) -> None:
+    def __init__(self, rules: MissionSettings, words: MissionWords = ENGLISH) -> None:
         super().__init__(classes="signs")
-        self._rules = rules
+        self._rules, self._words = rules, words
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
         turning = self._rules.controls == "turn"
-        self.draw([*walking_rows(turning=turning), BLANK, *sign_rows(glyphs, self._rules)])
+        keys = walking_rows(turning=turning, words=self._words)
+        self.draw([*keys, BLANK, *sign_rows(glyphs, self._rules, self._words)])

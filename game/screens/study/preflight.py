@@ -87,7 +87,7 @@ class PreflightScreen(StudyScreen[Preflighted]):
                 ((" " * INDENT, ""), *spaced),
             ]
         )
-        self._keys.set_keys(*((("Enter", words.go_on),) if self._ready else ()))
+        self._keys.set_keys(*(((self.frame.keys.enter, words.go_on),) if self._ready else ()))
 
     def on_key(self, event: events.Key) -> None:
         if event.key in ARROWS:

@@ -60,7 +60,7 @@ class ReasonScreen(StudyScreen[str]):
             remark = words.too_long.replace("{most}", f"{MOST_LETTERS:,}")
             self._keys.set_keys(remark=remark.replace("{count}", f"{self._too_many:,}"))
         else:
-            self._keys.set_keys(("Enter", words.go_on))
+            self._keys.set_keys((self.frame.keys.enter, words.go_on))
 
     def action_go_on(self) -> None:
         if not self._too_many:

@@ -141,7 +141,11 @@ class _Rehearsal(SimulatedParticipant):
         walking = page is self._study.texts.lessons.walking
 
         def made() -> Screen[Any]:
-            return PageScreen(self._frame, page, *([Signs(self._mission)] if walking else []))
+            return PageScreen(
+                self._frame,
+                page,
+                *([Signs(self._mission, self._frame.words.mission)] if walking else []),
+            )
 
         await self._show(page.title, made, page)
         await super().read(page)
