@@ -27,6 +27,7 @@ from game.errors import AnaError, did_you_mean
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
+from game.study.languages import ENGLISH, Translation
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -222,12 +223,15 @@ def new_study(
     preset: str = DEFAULT_PRESET,
     coach: str = ADAPTIVE,
     now: Callable[[], str] = utc_now,
+    language: str = ENGLISH,
 ) -> None:
     """Create a study folder with the default settings and texts, for the lab to edit.
 
-    `coach` is the adaptive instructor and `preset` how it adapts; `now` gives the time of creation.
-    Raises StudyError if the folder is not empty or cannot be created.
+    `language` is that of everything participants read; `coach` is the adaptive instructor and
+    `preset` how it adapts; `now` gives the time of creation. Raises StudyError if the folder is not
+    empty or cannot be created, AnaError for a language that there is not.
     """
+    translation = None if language == ENGLISH else Translation(language)
     seed = randbelow(_MOST_SEED) if seed is None else seed
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise StudyError("the folder is not empty", place=str(folder), hint="Choose a new folder")
@@ -238,9 +242,14 @@ def new_study(
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
-                text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
+                ending = ".txt" if translation else ""
+                names = {role: name + ending for role, name in _BUILDINGS.items()}
+                text = text.format(seed=seed, blocks=blocks, **chosen, **names)
             _write_new(folder / name, text)
         _write_new(folder / INSTRUCTIONS, english().text)
+        if translation is not None:
+            for name, text in translation.files(_BUILDINGS.values()).items():
+                _write_new(folder / name, text)
     except OSError as error:
         raise StudyError(
             f"the folder cannot be created ({error.strerror})", place=str(folder)

@@ -12,7 +12,7 @@ from textual.containers import Horizontal, Vertical
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.planmap import PlanMap
 from game.screens.study.timed import TICK_S, TimeLine
-from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.widgets.canvas import BLANK, Canvas, Row, padded
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Labelling
 from game.world.building import Room
@@ -45,9 +45,9 @@ class NameList(Canvas):
         for number, name in enumerate(names):
             mark = USED if name in used else " "
             style = "selected" if number == cursor else "used" if name in used else "item"
-            rows.append(((f" {mark} {name} ".ljust(columns), style),))
+            rows.append(padded(((f" {mark} {name} ", style),), columns, style))
         style = "selected" if cursor == len(names) else "item"
-        self.draw([*rows, BLANK, ((f" » {self._finish} ".ljust(columns), style),)])
+        self.draw([*rows, BLANK, padded(((f" » {self._finish} ", style),), columns, style)])
 
 
 class LabelScreen(StudyScreen[bool]):

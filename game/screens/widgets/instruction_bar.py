@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from textwrap import wrap
 from time import monotonic
 from typing import ClassVar
 
-from game.screens.widgets.canvas import Canvas, Row
+from game.screens.widgets.canvas import Canvas, Row, wrapped
 from game.world.observation import Guidance
 
 LINES = 3
@@ -25,10 +24,11 @@ def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[R
     if not guidance.text:
         guidance = Guidance(guidance.notice)
     wide = max(1, columns - 4)
-    rows: list[Row] = [((line, style),) for line in wrap(guidance.text, wide)]
+    rows: list[Row] = [((line, style),) for line in wrapped(guidance.text, wide)]
     above = max(0, LINES - len(rows) + 1) // 2
     if guidance.notice:
-        notice: list[Row] = [((f" {line} ", "notice"),) for line in wrap(guidance.notice, wide - 2)]
+        lines = wrapped(guidance.notice, wide - 2)
+        notice: list[Row] = [((f" {line} ", "notice"),) for line in lines]
         rows = [()] * (above - len(notice)) + notice + rows
     else:
         rows = [()] * above + rows
