@@ -196,7 +196,7 @@ def refuse_other_accounts(folder: Path, command: str) -> None:
     try:
         name = pwd.getpwuid(owner).pw_name
     except KeyError:
-        name = str(owner)
+        name = f"'#{owner}'"
     raise StudyError(
         f"this study belongs to the account {name}",
         place=str(folder),

@@ -129,7 +129,9 @@ def test_the_notes_of_a_dataset_may_begin_with_a_byte_order_mark(tmp_path: Path)
 def test_the_room_that_a_disk_should_have_is_a_setting(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    study = small_study(tmp_path / "study", least_free_mb="50")
+    study = small_study(tmp_path / "study")
+    settings = study.folder / "study.toml"
+    settings.write_text(f"least_free_mb = 50\n{settings.read_text()}")
     usage = shutil.disk_usage(study.folder)
     for free_mb, wrong in ((51, False), (49, True)):
         monkeypatch.setattr(
@@ -145,7 +147,7 @@ def test_only_the_owner_simulates_into_a_study(
     study = small_study(tmp_path / "study")
     before = study.ledger.path.read_bytes()
     monkeypatch.setattr("os.geteuid", lambda: 54_321)
-    assert main(["simulate", str(study.folder), "--participants", "2"]) == 2
+    assert main(["simulate", str(study.folder), "--participants", "2", "--seed", "1"]) == 2
     assert f"sudo -u {study.folder.owner()} ana simulate" in capsys.readouterr().err
     assert study.ledger.path.read_bytes() == before
 
