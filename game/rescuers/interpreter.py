@@ -8,15 +8,12 @@ tuple, and takes as long to read as that.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property
 
 from game.coach.acts import Level
-from game.coach.instructions.c1 import MOST_STEPS
-from game.coach.instructions.phrasebook import FORMS, NUMBER, ROOM, Phrasebook
+from game.coach.instructions.phrasebook import Phrasebook, everything_said
 from game.coach.instructions.phrasebook_file import english
-from game.coach.instructions.vocabulary import MOST_COUNTED, Tuple
 from game.rescuers.driver import Rescuer, Wait
 from game.world.building import Building
 from game.world.events import Action
@@ -64,17 +61,3 @@ class Interpreted:
 def interpreted(rescuer: Rescuer, phrases: Phrasebook, building: Building) -> Rescuer:
     """`rescuer` as they are in a study whose instructors say `phrases`."""
     return rescuer if phrases == english() else Interpreted(rescuer, phrases, building)
-
-
-def everything_said(level: Level, rooms: Iterable[str]) -> Iterable[Tuple]:
-    """Every tuple of a level, in a building with these rooms."""
-    for form in FORMS[level]:
-        action, thing = form.split(" ", 1)
-        if thing == ROOM:
-            yield from ((action, room) for room in rooms)
-        elif NUMBER in thing:
-            most = MOST_STEPS if thing.endswith("Steps") else MOST_COUNTED
-            numbers = range(1, most + 1)
-            yield from ((action, thing.replace(NUMBER, str(number))) for number in numbers)
-        else:
-            yield action, thing

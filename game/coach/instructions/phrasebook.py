@@ -6,13 +6,13 @@ it is the shipped English.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
 from game.coach.acts import Level
-from game.coach.instructions.vocabulary import Tuple, Tuples, belongs
+from game.coach.instructions.vocabulary import MOST_COUNTED, MOST_STEPS, Tuple, Tuples, belongs
 
 NUMBER, ROOM = "{number}", "{room}"
 """What stands in a form for the part of a tuple that varies."""
@@ -138,6 +138,20 @@ class Phrasebook:
                     raise _not_of(level, said)
                 sentence = sentence.replace(f"{{{name}}}", words[number - 1])
         return sentence
+
+
+def everything_said(level: Level, rooms: Iterable[str]) -> Iterator[Tuple]:
+    """Every tuple of a level, in a building with these rooms."""
+    for form in FORMS[level]:
+        action, thing = form.split(" ", 1)
+        if thing == ROOM:
+            yield from ((action, room) for room in rooms)
+        elif NUMBER in thing:
+            most = MOST_STEPS if thing.endswith("Steps") else MOST_COUNTED
+            numbers = range(1, most + 1)
+            yield from ((action, thing.replace(NUMBER, str(number))) for number in numbers)
+        else:
+            yield action, thing
 
 
 def _chosen(found: str | Mapping[str, str], form: str) -> str:

@@ -42,6 +42,8 @@ THINGS: dict[Level, frozenset[str]] = {
 VICTIM_AT_C2 = {Severity.RED: "redvictim", Severity.BLUE: "BlueVictim"}
 VICTIM_AT_C3 = {Severity.RED: "RedVictim", Severity.BLUE: "BlueVictim"}
 
+MOST_STEPS = 12
+"""How many steps a person is asked to count in one go."""
 MOST_COUNTED = 10
 """The highest number of doors or intersections that a person is asked to count."""
 

@@ -17,6 +17,7 @@ from game.screens.play.mission_screen import Failed, MissionScreen
 from game.screens.study.base import FixedStage, Frame, body, heading
 from game.screens.study.pages import Signs
 from game.screens.study.timed import TICK_S
+from game.screens.widgets.instruction_bar import lines_needed
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Playing
 from game.study.texts import LevelKeyWords, Page
@@ -77,6 +78,8 @@ class StudyMissionScreen(MissionScreen):
     ) -> None:
         super().__init__(live, live.task.home / JOURNAL, frame.words.mission)
         self.view.status.timed = self._is_mission
+        rooms = [room.name for room in live.task.building.rooms]
+        self.view.bar.lines = lines_needed(live.task.phrases, rooms, frame.size.columns)
         self.frame = frame
         self.reminder = reminder
         self.level_key = level_key

@@ -24,7 +24,9 @@ from game.rescuers.person import POPULATIONS
 from game.screens.study.app import StudyApp
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
 from game.screens.study.likert import LikertScreen
+from game.screens.study.mission_rehearsal import legend_words, mission_pages, windows
 from game.screens.study.pages import PageScreen, Signs
 from game.screens.study.planmap import PlanMap
 from game.screens.study.reason import ReasonScreen
@@ -38,7 +40,7 @@ from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
-from game.study.protocol.tasks import Memorising, Sheet
+from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page, filled, preceded
 from game.world.building import Building
 
@@ -126,6 +128,7 @@ class _Rehearsal(SimulatedParticipant):
     def __init__(self, session: StudySession, clock: VirtualClock, frame: Frame) -> None:
         super().__init__(session, clock, POPULATIONS["default"])
         self.pages: list[Rehearsed] = []
+        self._mission_shown = False
         self._frame = frame
         self._study = session.study
         self._mission = session.study.settings.mission
@@ -147,7 +150,8 @@ class _Rehearsal(SimulatedParticipant):
                 *([Signs(self._mission, self._frame.words.mission)] if walking else []),
             )
 
-        await self._show(page.title, made, page)
+        legend = legend_words(self._frame, self._mission) if walking else ()
+        await self._show(page.title, made, page, *legend)
         await super().read(page)
 
     async def look(self, page: Page, building: Building) -> None:
@@ -184,6 +188,21 @@ class _Rehearsal(SimulatedParticipant):
         await self._show(page.title, lambda: ReasonScreen(self._frame, page), page)
         return await super().explain(page)
 
+    async def label(self, task: Labelling) -> None:
+        words, keys = self._frame.words, self._frame.keys
+        title = self._study.texts.label.title
+        small = words.choose, words.answer, words.next, words.filter, words.clear, words.finish
+        said = (title, words.left, *small, keys.enter, keys.letters, keys.delete, *task.names)
+        await self._show(f"{title} 2", lambda: LabelScreen(self._frame, title, task), *said)
+        await super().label(task)
+
+    async def play(self, task: Playing) -> None:
+        if task.goals is None and not self._mission_shown:
+            self._mission_shown = True
+            for page in mission_pages(self._frame, self._study, task.building):
+                await self._show(page.name, page.make, *page.words)
+        await super().play(task)
+
     async def memorise(self, task: Memorising) -> None:
         map_page = Page(title=f"Map of {task.building.name}", body="")
         names = (room.name for room in task.building.rooms)
@@ -215,6 +234,8 @@ class _Rehearsal(SimulatedParticipant):
             preceded(likert, texts.cut_off.mission),
         ):
             await self._show(page.title, partial(PageScreen, self._frame, page), page)
+        for window in windows(self._frame, texts, self._mission):
+            await self._show(window.name, window.make, *window.words)
 
 
 async def rehearse(study: Study) -> list[Rehearsed]:
