@@ -9,7 +9,9 @@ Dietz, 2012, Investigative Ophthalmology & Visual Science 53).
 from __future__ import annotations
 
 from math import ceil
-from unicodedata import combining, east_asian_width
+from unicodedata import combining
+
+from game.world.labels import is_wide
 
 LETTERS_IN_WIDE = 3
 WIDE_IN_WORD = 2
@@ -19,18 +21,14 @@ def letters(text: str) -> int:
     """The letters that take as long to read as `text`, blanks and marks included."""
     if text.isascii():
         return len(text)
-    return sum(LETTERS_IN_WIDE if _wide(it) else not combining(it) for it in text)
+    return sum(LETTERS_IN_WIDE if is_wide(it) else not combining(it) for it in text)
 
 
 def words(text: str) -> int:
     """The words that take as long to read as `text`."""
     if text.isascii():
         return len(text.split())
-    wide = sum(map(_wide, text))
-    others = "".join(" " if _wide(it) else it for it in text)
+    wide = sum(map(is_wide, text))
+    others = "".join(" " if is_wide(it) else it for it in text)
     narrow = sum(any(map(str.isalnum, it)) for it in others.split())
     return narrow + ceil(wide / WIDE_IN_WORD)
-
-
-def _wide(character: str) -> bool:
-    return east_asian_width(character) in "WF"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -111,11 +112,15 @@ def _unseen(words: str, views: Sequence[Sequence[str]]) -> Iterator[str]:
     without spaces, may be broken between lines."""
     lines = [line for view in views for line in view]
     tokens = {token for line in lines for token in line.split()}
-    joined = ["".join("".join(line.split()) for line in view) for view in views]
+    joined = ["".join(_FRAMES.sub("", line) for line in view) for view in views]
     for word in dict.fromkeys(words.replace("**", "").split()):
         in_a_line = word in tokens or any(word in line for line in lines)
         if not in_a_line and not (_may_break(word) and any(word in one for one in joined)):
             yield word
+
+
+_FRAMES = re.compile(r"[\s\u2500-\u259f]+")
+"""Blanks, and the lines and blocks of a frame."""
 
 
 def _may_break(word: str) -> bool:

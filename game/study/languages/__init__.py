@@ -38,6 +38,12 @@ class Translation:
             raise AnaError(f"there is no translation '{language}'", place="--language", hint=hint)
         self._folder = _HERE / language
 
+    @property
+    def rooms(self) -> dict[str, str]:
+        """The names of the shipped buildings' rooms, by their English names."""
+        text = (self._folder / ROOMS).read_text(encoding="utf-8")
+        return {english: str(name) for english, name in tomllib.loads(text).items()}
+
     def files(self, buildings: Iterable[str]) -> dict[str, str]:
         """The files of a study folder, by name: the texts, and `buildings` with rooms renamed."""
         texts = {
@@ -50,6 +56,5 @@ class Translation:
         }
 
     def _renamed(self, building: str) -> str:
-        text = (self._folder / ROOMS).read_text(encoding="utf-8")
-        rooms: dict[str, str] = tomllib.loads(text)
+        rooms = self.rooms
         return _ROOM.sub(lambda found: found[1] + rooms[found[2]], building)
