@@ -13,20 +13,19 @@ from pathlib import Path, PurePath
 from typing import Any, ClassVar, Literal
 
 from textual.app import App
-from textual.containers import Center
 from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Static
 
 from game.journal.clock import VirtualClock
 from game.journal.sink import MemorySink
 from game.rescuers.person import POPULATIONS
 from game.screens.study.app import StudyApp
-from game.screens.study.base import Frame, StudyScreen
+from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.label import LabelScreen
 from game.screens.study.likert import LikertScreen
+from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_rehearsal import legend_words, mission_pages, windows
 from game.screens.study.pages import PageScreen, Signs
 from game.screens.study.planmap import PlanMap
@@ -209,15 +208,14 @@ class _Rehearsal(SimulatedParticipant):
         await super().play(task)
 
     async def memorise(self, task: Memorising) -> None:
-        map_page = Page(title=f"Map of {task.building.name}", body="")
-        names = (room.name for room in task.building.rooms)
+        title = self._study.texts.memorise.title
+        names = [room.name for room in task.building.rooms]
 
         def made() -> Screen[Any]:
-            title = Static(map_page.title, classes="title", markup=False)
-            plan = Center(PlanMap(task.building), classes="middle")
-            return StudyScreen(self._frame, [title, plan])
+            return MemoriseScreen(self._frame, title, task)
 
-        await self._show(map_page.title, made, *names)
+        words = title, self._frame.words.left, *names
+        await self._show(f"Map of {task.building.name}", made, *words)
         await super().memorise(task)
 
     async def _show(self, name: str, make: Make, *words: Page | str) -> None:

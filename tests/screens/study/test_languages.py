@@ -92,7 +92,7 @@ def test_a_german_study_is_simulated_verified_and_says_the_english_tuples(tmp_pa
     for language in languages():
         folder = tmp_path / language
         new_study(folder, seed=5, blocks=1, language=language)
-        assert main(["simulate", str(folder), "--participants", "1", "--seed", "2"]) == 0
+        assert main(["simulate", str(folder), "--participants", "1", "--seed", "5"]) == 0
         (path,) = folder.glob("sessions/simulated/*/journal.jsonl")
         assert verify(path).reproduced
         records = [entry.record for entry in read_journal(path).entries]
@@ -139,9 +139,9 @@ def test_study_check_names_the_line_of_a_sentence_that_is_wrong(
     new_study(tmp_path / "study", seed=3, blocks=1, language="de")
     path = tmp_path / "study" / "instructions.toml"
     text = path.read_text()
-    path.write_text(text.replace("{nten} Tür links", "{nted} Tür links"))
+    path.write_text(text.replace("{nten} Tür links", "{nteen} Tür links"))
     assert main(["study", "check", str(tmp_path / "study")]) == 2
     told = capsys.readouterr().err
-    line = next(n for n, it in enumerate(path.read_text().splitlines(), 1) if "{nted}" in it)
-    assert f"instructions.toml, line {line}: there is no {{nted}}" in told
+    line = next(n for n, it in enumerate(path.read_text().splitlines(), 1) if "{nteen}" in it)
+    assert f"instructions.toml, line {line}: there is no {{nteen}}" in told
     assert "Did you mean {nten}?" in told
