@@ -45,6 +45,10 @@ class SimulatedParticipant:
         self._experiences: dict[int, Experience] = {}
         self._legs = 0
 
+    def come_back(self, session: StudySession) -> None:
+        """Take part in what is left of the session, after a break."""
+        self._session = session
+
     async def check(self, needed: ScreenSize) -> Preflighted:
         self._pass(5 * TICK_MS)
         terminal = Terminal("simulated", "", needed.columns, needed.rows)
@@ -105,10 +109,10 @@ class SimulatedParticipant:
             if task.goals is None:
                 task.tick(now_ms)
 
-        reader = interpreted(person, self._session.study.phrases, task.building)
-        drive(run, reader, passing=passing, done=lambda: task.done)
         if task.goals is None:
             self._experiences[self._round] = person.experience
+        reader = interpreted(person, self._session.study.phrases, task.building)
+        drive(run, reader, passing=passing, done=lambda: task.done)
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
         right = {check.id: check.right for check in self._session.study.items.check}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -108,6 +109,19 @@ def test_a_german_study_is_simulated_verified_and_says_the_english_tuples(tmp_pa
     ]
     assert first == [list(it.tuples) for it in told["de"][:3]]
     assert not {it.text for it in told["en"]} & {it.text for it in told["de"]}
+
+
+def keys(tree: object) -> object:
+    """The keys of a tree of texts."""
+    return {key: keys(it) for key, it in tree.items()} if isinstance(tree, dict) else None
+
+
+@pytest.mark.parametrize("folder", ["game/study/languages/de", str(JAPANESE)])
+def test_a_translation_has_every_text(folder: str) -> None:
+    """Older study folders may lack some; a translation that comes with the game may not."""
+    english_texts = Path("game/study/template/texts.toml").read_text(encoding="utf-8")
+    translated = (Path(folder) / "texts.toml").read_text(encoding="utf-8")
+    assert keys(tomllib.loads(translated)) == keys(tomllib.loads(english_texts))
 
 
 @pytest.mark.parametrize("name", BUILDINGS)
