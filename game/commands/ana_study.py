@@ -58,11 +58,13 @@ def study_group() -> None:
 @click.option("--seed", type=int, help="Decides who is allocated what.  [default: random]")
 @click.option("--blocks", type=click.IntRange(1), default=5, show_default=True,
               help="How many blocks of 24 places the study has.")  # fmt: skip
-def make_study(folder: Path, seed: int | None, blocks: int) -> None:
+@click.option("--language", default="en", show_default=True, metavar="CODE",
+              help="The language of everything participants read: en or de.")  # fmt: skip
+def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> None:
     """Create the study folder DIR, with settings and texts to check before you begin."""
     from game.study.folder import ITEMS, SETTINGS, TEXTS, new_study
 
-    new_study(folder, seed, blocks)
+    new_study(folder, seed, blocks, language=language)
     click.echo(
         f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
         f"  ana study check {folder}\n"
