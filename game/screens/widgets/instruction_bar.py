@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from textwrap import wrap
 from time import monotonic
 from typing import ClassVar
 
 from game.screens.widgets.canvas import Canvas, Row
+from game.screens.widgets.program import Program
 from game.world.observation import Guidance
 
 LINES = 3
@@ -15,7 +17,24 @@ FLASH_S = 0.6
 """How long a new instruction stands out."""
 
 
-def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[Row]:
+_SENTENCE = re.compile(r"(?<=[.!?]) +")
+
+
+def sentences_in_rows(text: str, columns: int) -> list[str]:
+    """A text in rows of `columns`: broken between sentences where that takes no more rows."""
+    rows = wrap(text, columns)
+    whole: list[str] = []
+    for sentence in _SENTENCE.split(text) if len(rows) > 1 else ():
+        if whole and len(whole[-1]) + 1 + len(sentence) <= columns:
+            whole[-1] += f" {sentence}"
+        else:
+            whole += wrap(sentence, columns)
+    return whole if 0 < len(whole) <= len(rows) else rows
+
+
+def bar_rows(
+    guidance: Guidance, columns: int, *, fresh: bool = False, by_sentence: bool = True
+) -> list[Row]:
     """Notice and instruction, wrapped into at least `LINES` rows of `columns`.
 
     The notice has rows of its own above the text, which stands where it would without one. A
@@ -25,7 +44,8 @@ def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[R
     if not guidance.text:
         guidance = Guidance(guidance.notice)
     wide = max(1, columns - 4)
-    rows: list[Row] = [((line, style),) for line in wrap(guidance.text, wide)]
+    lines = sentences_in_rows(guidance.text, wide) if by_sentence else wrap(guidance.text, wide)
+    rows: list[Row] = [((line, style),) for line in lines]
     above = max(0, LINES - len(rows) + 1) // 2
     if guidance.notice:
         notice: list[Row] = [((f" {line} ", "notice"),) for line in wrap(guidance.notice, wide - 2)]
@@ -73,7 +93,10 @@ class InstructionBar(Canvas):
     def _draw(self) -> None:
         if self.size.width:
             fresh = self._fresh_until > 0
-            self.draw(bar_rows(self._guidance, self.size.width, fresh=fresh))
+            by_sentence = not isinstance(self.app, Program) or self.app.look > 1
+            columns = self.size.width
+            rows = bar_rows(self._guidance, columns, fresh=fresh, by_sentence=by_sentence)
+            self.draw(rows)
 
     def on_resize(self) -> None:
         self._draw()
