@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -98,9 +99,25 @@ def mission_options(command: _Command) -> _Command:
 
 @click.command(name="play")
 @mission_options
-def play(**given: Any) -> int:
+@click.option(
+    "--now", is_flag=True, help="Start the clock at once, without the page before the mission."
+)
+@click.option(
+    "--memorise",
+    type=click.IntRange(0, 3600),
+    default=0,
+    metavar="SECONDS",
+    help="Show the map with the rooms' names for so long first.",
+)
+@click.option(
+    "--text",
+    is_flag=True,
+    help="Play by typing lines and reading sentences, as with a screen reader; needs no screen.",
+)
+def play(now: bool, text: bool, memorise: int, **given: Any) -> int:
     """Play a mission now."""
-    return run_play(options_of(**given))
+    options = replace(options_of(**given), now=now, memorise_ms=1000 * memorise)
+    return play_in_text(options) if text else run_play(options)
 
 
 @click.command(name="replay")
@@ -108,6 +125,22 @@ def play(**given: Any) -> int:
 def replay_journal(journal: Path) -> int:
     """Replay the mission in JOURNAL, showing what the coach believed at each moment."""
     return run_replay(journal)
+
+
+def play_in_text(options: PlayOptions) -> int:
+    """Play a mission by the lines of the standard input."""
+    from game.screens.text.text_play import play_text, typed_lines
+
+    return play_text(
+        options.building,
+        options.settings,
+        options.spec,
+        options.seed,
+        options.log_dir,
+        typed_lines(),
+        sys.stdout,
+        memorise_ms=options.memorise_ms,
+    )
 
 
 def options_of(

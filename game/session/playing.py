@@ -8,6 +8,8 @@ from pathlib import Path
 from secrets import token_hex
 from typing import Literal
 
+from msgspec import structs
+
 from game.coach.api import Briefing, Coach
 from game.coach.presets import Preset, preset
 from game.coach.spec import CoachSpec, assumed_of, build_coach
@@ -33,6 +35,26 @@ CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
 """Builds a coach from its description; pass another to play with a coach of your own."""
 
 
+def open_free_play(
+    settings: MissionSettings,
+    seed: int,
+    log_dir: Path,
+    terminal: Terminal | None,
+    *,
+    rescuer: str = PERSON,
+    clock: Clock | None = None,
+) -> Journal:
+    """A journal of free play in a new folder of `log_dir`, without a mission yet.
+
+    Raises JournalError if it cannot be written.
+    """
+    clock = clock or SystemClock()
+    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
+    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
+    opening = _free_play(session, settings, seed, terminal, rescuer)
+    return Journal.create(log_dir / session / JOURNAL, opening, clock)
+
+
 def start_free_play(
     building: Building,
     settings: MissionSettings,
@@ -45,17 +67,24 @@ def start_free_play(
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
     variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> tuple[MissionRun, Journal]:
-    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
+    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`. The map with names
+    was shown for `memorised_ms` before.
 
     Raises JournalError if the journal cannot be written.
     """
-    clock = clock or SystemClock()
-    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
-    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
-    opening = _free_play(session, settings, seed, terminal, rescuer)
-    journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
-    run = begin_mission(journal, building, settings, spec, seed, build=build, variant=variant)
+    journal = open_free_play(settings, seed, log_dir, terminal, rescuer=rescuer, clock=clock)
+    run = begin_mission(
+        journal,
+        building,
+        settings,
+        spec,
+        seed,
+        build=build,
+        variant=variant,
+        memorised_ms=memorised_ms,
+    )
     return run, journal
 
 
@@ -88,6 +117,7 @@ def begin_mission(
     *,
     build: CoachBuilder = build_coach,
     variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
@@ -96,7 +126,8 @@ def begin_mission(
     if journal.phase == "session":
         journal.enter("mission")
     run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    journal.append(mission_started(building, settings, spec, seed, variant))
+    started = mission_started(building, settings, spec, seed, variant)
+    journal.append(structs.replace(started, memorised_ms=memorised_ms))
     run.begin()
     return run
 

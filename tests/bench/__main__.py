@@ -55,6 +55,7 @@ def game(*options: str) -> list[str]:
         "-m",
         "game",
         "play",
+        "--now",
         "--seed",
         "1",
         "--log",

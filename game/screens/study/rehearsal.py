@@ -25,11 +25,12 @@ from game.screens.study.app import StudyApp
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.likert import LikertScreen
-from game.screens.study.pages import PageScreen, Signs
-from game.screens.study.planmap import PlanMap
+from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
 from game.screens.study.sliders import SlidersScreen
+from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
+from game.screens.widgets.signs import Signs
 from game.screens.widgets.theme import Look
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
