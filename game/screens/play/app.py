@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
     from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
+    from game.screens.play.journal_list import Chosen
     from game.screens.play.lesson_screen import LessonOver
     from game.screens.play.live import LiveMission
     from game.screens.play.map_screen import MapScreen
@@ -155,7 +156,8 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.home import HomeScreen
 
         self._been_home = True
-        self._replace(HomeScreen(self.preferences))
+        rules = self._options.settings if self._options else FREE_PLAY
+        self._replace(HomeScreen(self.preferences, self._log_dir(), rules))
 
     def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
         home = message.sender
@@ -182,7 +184,7 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.past_missions import newest_journals
 
         journals = newest_journals(self._log_dir())
-        self.push_screen(JournalsScreen(journals), self._replay_chosen)
+        self.push_screen(JournalsScreen(journals), self._journal_chosen)
 
     def _show_howto(self) -> None:
         from game.screens.widgets.howto import HowToScreen
@@ -351,30 +353,34 @@ class AnaApp(Program, inherit_bindings=False):
         return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
 
     def on_finished(self, message: Finished) -> None:
+        self.live = None
+        self.show_result(message.journal, always=message.complete)
+
+    def show_result(self, journal: Path, *, always: bool = True) -> None:
+        """The result page of a journal's first mission; unless `always`, only where something was
+        done in it."""
         from game.journal.reader import read_journal
         from game.screens.play.mission_story import tell
         from game.screens.play.result import ResultScreen
         from game.session.replay import Replay
 
-        self.live = None
         try:
-            replay = Replay(read_journal(message.journal))
+            replay = Replay(read_journal(journal))
             replay.seek(replay.duration_ms)
         except AnaError as error:
             self._say_or_fail("The journal cannot be read", error)
             return
         story = tell(replay)
-        if message.complete or story.actions:
-            self._replace(ResultScreen(story, message.journal))
+        if always or story.actions:
+            self._replace(ResultScreen(story, journal))
         else:
             self._step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         result = message.sender
-        if message.what == "again" and self._options is not None:
-            self.offer_mission(
-                replace(self._options, seed=self._options.seed + 1, memorise_ms=0, now=False)
-            )
+        if message.what == "again":
+            options = self._options or self._chosen()
+            self.offer_mission(replace(options, seed=options.seed + 1, memorise_ms=0, now=False))
         elif message.what == "replay":
             self.replay(result.journal)
         elif message.what == "card":
@@ -410,9 +416,14 @@ class AnaApp(Program, inherit_bindings=False):
         except AnaError as error:
             self._say_or_fail("This mission cannot be replayed", error)
 
-    def _replay_chosen(self, journal: Path | None) -> None:
-        if journal is not None:
+    def _journal_chosen(self, chosen: Chosen | None) -> None:
+        if chosen is None:
+            return
+        what, journal = chosen
+        if what == "replay":
             self.replay(journal)
+        else:
+            self.show_result(journal)
 
     def show_replay(self, replay: Replay) -> None:
         """Show a replay over whatever is shown."""

@@ -4,18 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
+from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.message import Message
 from textual.screen import Screen
 
+from game.screens.play.past_missions import (
+    PastMission,
+    best,
+    difficulty,
+    newest_journals,
+    of_kind,
+    past_missions,
+)
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
 from game.screens.widgets.preferences import Preferences
 from game.world import load_building
+from game.world.settings import FREE_PLAY, MissionSettings
 
 _LETTERS = (
     "▄▀▀▀▄  █▄  █  ▄▀▀▀▄",
@@ -51,11 +62,12 @@ MEMORISING = ((0, "no"), (60, "for one minute"), (180, "for three minutes"))
 
 
 class Item(NamedTuple):
-    """A line of the menu; a `choice` changes with left and right."""
+    """A line of the menu; a `choice` changes with left and right, a `note` stands there."""
 
     action: str
     text: str
     choice: str = ""
+    note: str = ""
 
 
 def scene_rows(glyphs: GlyphSet) -> list[Row]:
@@ -68,16 +80,16 @@ def _building_name(shipped: str) -> str:
     return load_building(shipped).name
 
 
-def menu_items(preferences: Preferences) -> tuple[Item, ...]:
-    """The lines of the menu, in order."""
+def menu_items(preferences: Preferences, reached: str = "") -> tuple[Item, ...]:
+    """The lines of the menu, in order; `reached` is what was reached before in such a mission."""
     return (
-        Item("play", "Play"),
+        Item("play", "Play", note=reached),
         Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
         Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
         Item("tutorial", "Tutorial, three minutes"),
         Item("watch", "Watch a simulated rescuer"),
-        Item("replay", "Replay a mission"),
+        Item("replay", "Your missions"),
         Item("howto", "How to play"),
         Item("quit", "Quit"),
     )
@@ -88,7 +100,7 @@ def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
     rows: list[Row] = []
     for number, item in enumerate(items):
         chosen = number == selected
-        choice = f"‹ {item.choice} ›" if item.choice else ""
+        choice = f"‹ {item.choice} ›" if item.choice else item.note
         text = f" {'▸' if chosen else ' '} {item.text:<15}{choice}"
         rows.append(((f"{text:<48}", "selected" if chosen else "item"),))
     return rows
@@ -147,9 +159,14 @@ class HomeScreen(Screen[None]):
         Binding("q,Q,escape,ctrl+q,ctrl+c", "want('quit')", id="home.quit"),
     ]
 
-    def __init__(self, preferences: Preferences) -> None:
+    def __init__(
+        self, preferences: Preferences, log_dir: Path, rules: MissionSettings = FREE_PLAY
+    ) -> None:
         super().__init__()
         self.preferences = preferences
+        self._log_dir = log_dir
+        self._difficulty = difficulty(rules)
+        self._past: tuple[PastMission, ...] = ()
         self._page = HomePage()
         self._selected = 0
 
@@ -162,23 +179,49 @@ class HomeScreen(Screen[None]):
 
     def on_mount(self) -> None:
         self._show()
+        self._read()
+
+    @work(thread=True)
+    def _read(self) -> None:
+        """Read what was played before, meanwhile."""
+        past = past_missions(newest_journals(self._log_dir))
+        self.app.call_from_thread(self._have_read, past)
+
+    def _have_read(self, past: tuple[PastMission, ...]) -> None:
+        self._past = past
+        if self.is_attached:
+            self._show()
 
     def _show(self) -> None:
-        self._page.show(menu_items(self.preferences), self._selected)
+        self._page.show(self._items(), self._selected)
+
+    def _items(self) -> tuple[Item, ...]:
+        return menu_items(self.preferences, self._reached())
+
+    def _reached(self) -> str:
+        """The best and the latest result of such a mission as is chosen."""
+        kind, _, level = self.preferences.coach.partition("-")
+        coach = f"{kind} C{level}" if level else kind
+        building = _building_name(self.preferences.building)
+        such = of_kind(self._past, (building, coach, self._difficulty))
+        top = best(such)
+        if top is None:
+            return ""
+        return f"best {top.rescued}, last time {max(such, key=lambda it: it.at).rescued}"
 
     def action_move(self, way: int) -> None:
-        self._selected = (self._selected + way) % len(menu_items(self.preferences))
+        self._selected = (self._selected + way) % len(self._items())
         self._show()
 
     def action_change(self, way: int) -> None:
-        item = menu_items(self.preferences)[self._selected].action
+        item = self._items()[self._selected].action
         if item in _CHOICES:
             wanted = _next(_CHOICES[item], getattr(self.preferences, item), way)
             self.preferences = self.preferences.replaced(**{item: wanted})
         self._show()
 
     def action_choose(self) -> None:
-        item = menu_items(self.preferences)[self._selected]
+        item = self._items()[self._selected]
         if item.choice:
             self.action_change(1)
         else:

@@ -19,6 +19,7 @@ from game.world.settings import FREE_PLAY, MissionSettings
 
 MOST = 200
 """So many journals are looked at, the newest first."""
+CANNOT_BE_READ = "cannot be read"
 _OF_NO_WEIGHT = frozenset({"show_score", "allow_pause", "level_key", "controls"})
 """Settings that make a mission neither easier nor harder."""
 _WORDS = {
@@ -80,29 +81,31 @@ def past_missions(journals: Iterable[Path]) -> tuple[PastMission, ...]:
     """The missions of these journals, in their order, without those that hold none or cannot be
     read."""
     found = (past_mission(path) for path in journals)
-    return tuple(mission for mission in found if mission is not None)
+    return tuple(mission for mission in found if isinstance(mission, PastMission))
 
 
-def past_mission(journal: Path) -> PastMission | None:
-    """The first mission of a journal; None if it holds none, or cannot be read."""
+def past_mission(journal: Path) -> PastMission | str:
+    """The first mission of a journal; or, in words, why there is none."""
     try:
         stat = journal.stat()
     except OSError:
-        return None
+        return CANNOT_BE_READ
     return _read(journal, stat.st_mtime_ns, stat.st_size)
 
 
 @lru_cache(maxsize=2 * MOST)
-def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | None:
+def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
     try:
         transcript = read_journal(journal)
         history = read_history(transcript)
-        if not history.missions or history.missions[0].step.phase == "practice":
-            return None
+        if not history.missions:
+            return "no mission"
         played = history.missions[0]
+        if played.step.phase == "practice":
+            return "tutorial"
         building = _building(played.started.building_text, played.started.building)
     except AnaError:
-        return None
+        return CANNOT_BE_READ
     opening = transcript.started
     started = played.started
     return PastMission(
