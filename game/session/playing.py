@@ -29,6 +29,7 @@ from game.session.run import MissionRun, Recorder
 from game.world.building import Building
 from game.world.mission import Mission
 from game.world.settings import MissionSettings
+from game.world.variant import USUAL, Variant
 
 CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
 """Builds a coach from its description; pass another to play with a coach of your own."""
@@ -66,6 +67,7 @@ def start_free_play(
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
     memorised_ms: int = 0,
+    variant: Variant = USUAL,
 ) -> tuple[MissionRun, Journal]:
     """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`. The map with names
     was shown for `memorised_ms` before.
@@ -74,7 +76,14 @@ def start_free_play(
     """
     journal = open_free_play(settings, seed, log_dir, terminal, rescuer=rescuer, clock=clock)
     run = begin_mission(
-        journal, building, settings, spec, seed, build=build, memorised_ms=memorised_ms
+        journal,
+        building,
+        settings,
+        spec,
+        seed,
+        build=build,
+        memorised_ms=memorised_ms,
+        variant=variant,
     )
     return run, journal
 
@@ -108,6 +117,7 @@ def begin_mission(
     *,
     build: CoachBuilder = build_coach,
     memorised_ms: int = 0,
+    variant: Variant = USUAL,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
@@ -116,14 +126,18 @@ def begin_mission(
     if journal.phase == "session":
         journal.enter("mission")
     run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    started = mission_started(building, settings, spec, seed)
+    started = mission_started(building, settings, spec, seed, variant)
     journal.append(structs.replace(started, memorised_ms=memorised_ms))
     run.begin()
     return run
 
 
 def mission_started(
-    building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    variant: Variant = USUAL,
 ) -> MissionStarted:
     """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
@@ -136,6 +150,7 @@ def mission_started(
         seed=seed,
         rules_version=RULES_VERSION,
         assumed=assumed_of(spec),
+        variant=variant,
     )
 
 

@@ -37,6 +37,7 @@ from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import USUAL, Variant, varied
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
@@ -69,6 +70,16 @@ class PlayOptions:
     """For how long the map is shown first, to a person."""
     now: bool = False
     """Whether the clock starts at once, without the page before the mission."""
+    variant: Variant = USUAL
+    drawn: Building | None = None
+    """The building before the variant; None where they are the same."""
+
+    def again(self) -> PlayOptions:
+        """The next mission: the next seed, and what follows from it."""
+        seed = self.seed + 1
+        if self.drawn is None:
+            return replace(self, seed=seed)
+        return replace(self, seed=seed, building=varied(self.drawn, self.variant, seed))
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -325,6 +336,7 @@ class AnaApp(Program, inherit_bindings=False):
             options.log_dir,
             this_terminal(*self.size),
             memorised_ms=memorised_ms,
+            variant=options.variant,
         )
         return FreePlayScreen(LiveMission(run, journal), _path(journal))
 
@@ -346,6 +358,7 @@ class AnaApp(Program, inherit_bindings=False):
             this_terminal(*self.size),
             rescuer=who.name,
             build=OverheardCoach.build,
+            variant=options.variant,
         )
         coach = run.coach
         assert isinstance(coach, OverheardCoach)
@@ -380,7 +393,7 @@ class AnaApp(Program, inherit_bindings=False):
         result = message.sender
         if message.what == "again":
             options = self._options or self._chosen()
-            self.offer_mission(replace(options, seed=options.seed + 1, memorise_ms=0, now=False))
+            self.offer_mission(replace(options.again(), memorise_ms=0, now=False))
         elif message.what == "replay":
             self.replay(result.journal)
         elif message.what == "card":

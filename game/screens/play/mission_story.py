@@ -17,6 +17,10 @@ from game.world.geometry import Cell
 from game.world.observation import VictimState
 from game.world.settings import MissionSettings
 
+LEFT_AT_ONCE_MS = 60_000
+"""A mission left before this shows no more victims than were seen in it, so that it can be played
+as if for the first time."""
+
 
 class Fate(NamedTuple):
     """What became of a victim, and when; `at_ms` is None if they are still waiting."""
@@ -40,6 +44,7 @@ class MissionStory:
     """A mission as a whole. `path` holds the cells walked, the start first, and `walked_ms` when
     each was reached; `levels` are 1 to 3.
 
+    `fates` are those of all victims, and `revealed` names those that may be shown afterwards.
     `actions` counts what the rescuer did, including blocked moves and turns; `instructions` counts
     how often the words on the bar changed; `left` is true if the player left before the end.
     """
@@ -55,11 +60,14 @@ class MissionStory:
     walked_ms: tuple[int, ...]
     said: tuple[Said, ...]
     fates: dict[str, Fate]
+    revealed: frozenset[str]
     rescues: tuple[ChartStep, ...]
     levels: tuple[ChartStep, ...]
     instructions: int
     missteps: int
     disobeyed: int
+    unusual: str
+    """What sets this mission apart from the building as drawn and the usual rules."""
 
     @property
     def rescued(self) -> int:
@@ -105,6 +113,7 @@ def tell(replay: Replay) -> MissionStory:
     fates = {site.id: Fate(site, VictimState.WAITING, None) for site in building.victims}
     for victim, (fate, at_ms) in past.fates.items():
         fates[victim] = Fate(fates[victim].victim, VictimState(fate), at_ms)
+    left = replay.recorded.end == "abandoned"
     rescued = [at_ms for fate, at_ms in past.fates.values() if fate == "rescued"]
     return MissionStory(
         building=building,
@@ -112,15 +121,24 @@ def tell(replay: Replay) -> MissionStory:
         seed=replay.started.seed,
         settings=replay.started.settings,
         until_ms=replay.time_ms,
-        left=replay.recorded.end == "abandoned",
+        left=left,
         actions=past.actions,
         path=(building.start, *past.path),
         walked_ms=(0, *_moved_ms(past)),
         said=tuple(_said(past)),
         fates=fates,
+        revealed=_seen(replay) if left and replay.time_ms < LEFT_AT_ONCE_MS else frozenset(fates),
         rescues=(ChartStep(0, 0), *(ChartStep(at, n) for n, at in enumerate(rescued, start=1))),
         levels=tuple(ChartStep(at_ms, int(level)) for at_ms, level, _ in past.level_changes),
         instructions=past.texts,
         missteps=past.missteps,
         disobeyed=len(past.disobeyed),
+        unusual=replay.started.variant.of_seed(replay.started.seed),
     )
+
+
+def _seen(replay: Replay) -> frozenset[str]:
+    """The victims that have been in view."""
+    observation = replay.observation()
+    cells = {victim.cell for victim in (*observation.victims, *observation.remembered)}
+    return frozenset(site.id for site in replay.building.victims if site.cell in cells)

@@ -16,6 +16,7 @@ from game.screens.play.mission_story import coach_name
 from game.world.building import Building, Severity
 from game.world.reading import parse_building
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import Difficulty, with_demands
 
 MOST = 200
 """So many journals are looked at, the newest first."""
@@ -57,18 +58,20 @@ class PastMission:
         return self.ended and not self.rescuer
 
 
-def difficulty(rules: MissionSettings) -> str:
-    """The settings that make a mission easier or harder than usual, in words; `standard` if none
-    does."""
+def difficulty(rules: MissionSettings, named: Difficulty = "standard") -> str:
+    """A difficulty, and the settings that were changed from it and weigh, in words."""
+    usual = with_demands(FREE_PLAY, named)
     changed = [
         _WORDS[field.name].format(round(value / 1000))
         if field.name in _WORDS and value is not None
         else f"{field.name.replace('_', ' ')} {value}"
         for field in fields(rules)
         if field.name not in _OF_NO_WEIGHT
-        and (value := getattr(rules, field.name)) != getattr(FREE_PLAY, field.name)
+        and (value := getattr(rules, field.name)) != getattr(usual, field.name)
     ]
-    return ", ".join(changed) or "standard"
+    if changed and named == "standard":
+        return ", ".join(changed)
+    return ", ".join([named, *changed])
 
 
 def newest_journals(folder: Path) -> tuple[Path, ...]:
@@ -113,7 +116,7 @@ def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
         at=datetime.fromisoformat(history.started_utc).astimezone(),
         building=started.building,
         coach=coach_name(started.coach),
-        difficulty=difficulty(started.settings),
+        difficulty=difficulty(started.settings, started.variant.difficulty),
         people=len(building.victims),
         rescued=sum(fate == "rescued" for fate, _ in played.fates.values()),
         points=_points(played, building) if started.settings.show_score else None,

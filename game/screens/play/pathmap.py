@@ -77,7 +77,7 @@ def path_map(story: MissionStory, *, columns: int, filled: bool) -> list[Row]:
     pins |= _arrows(story, scale, trails, filled=filled)
     if named:
         pins |= _names(story)
-    for victim in building.victims:
+    for victim in (it for it in building.victims if it.id in story.revealed):
         pins[victim.cell] = victim_pin(victim, story.fates[victim.id].state)
     pins[story.path[-1]] = END
     pins[building.start] = HEADING_ARROWS[building.start_heading], "here/here"
@@ -143,7 +143,7 @@ def legend_row(story: MissionStory, *, filled: bool) -> Row:
 def _names(story: MissionStory) -> dict[Cell, Pin]:
     """The letters of the rooms' names, each at the upper cell of its character."""
     building = story.building
-    taken = {victim.cell for victim in building.victims}
+    taken = {victim.cell for victim in building.victims if victim.id in story.revealed}
     pins: dict[Cell, Pin] = {}
     for room in building.rooms:
         free = tuple(cell for cell in room.cells if cell not in taken)

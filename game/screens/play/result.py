@@ -101,8 +101,10 @@ def total_rows(story: MissionStory) -> list[Row]:
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
     left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
-    where = f"{story.building.name} · "
-    return [first, ((left, "big"), (where + told, "quiet"))]
+    if len(story.revealed) < total:
+        told = "The victims you had not seen are not shown, so that you can play it as new."
+    where = ", ".join(filter(None, (story.building.name, story.unusual)))
+    return [first, ((left, "big"), (f"{where} · {told}", "quiet"))]
 
 
 def fate_rows(story: MissionStory, columns: int) -> list[Row]:
@@ -110,11 +112,11 @@ def fate_rows(story: MissionStory, columns: int) -> list[Row]:
     as many columns as fit."""
     order = (VictimState.RESCUED, VictimState.EXPIRED, VictimState.WAITING)
     fates = sorted(
-        story.fates.values(),
+        (fate for fate in story.fates.values() if fate.victim.id in story.revealed),
         key=lambda fate: (order.index(fate.state), fate.at_ms or 0, fate.victim.id),
     )
     across = max(1, columns // _FATE_COLUMNS)
-    down = -(-len(fates) // across)
+    down = -(-len(fates) // across) or 1
     rows: list[Row] = []
     for first in range(0, len(fates), down):
         lines = [
