@@ -145,10 +145,10 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
     coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
-    one that judges what the rescuer knows. `memorised_ms` is how long the map with the rooms' names
-    was shown just before, in free play (a study records that as a phase of its own). `variant`
-    says how the building and the rules came to differ from those drawn and usual; the text and the
-    settings hold what came of it.
+    one that judges what the rescuer knows. `variant` says how the building and the rules came to
+    differ from those drawn and usual; the text and the settings hold what came of it.
+    `memorised_ms` is how long the map with the rooms' names
+    was shown just before, in free play (a study records that as a phase of its own).
     """
 
     building: str
@@ -160,8 +160,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     seed: int
     rules_version: int
     assumed: Assumed | None = None
-    memorised_ms: int = 0
     variant: Variant = USUAL
+    memorised_ms: int = 0
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

@@ -66,8 +66,8 @@ def start_free_play(
     rescuer: str = PERSON,
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
-    memorised_ms: int = 0,
     variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> tuple[MissionRun, Journal]:
     """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`. The map with names
     was shown for `memorised_ms` before.
@@ -82,8 +82,8 @@ def start_free_play(
         spec,
         seed,
         build=build,
-        memorised_ms=memorised_ms,
         variant=variant,
+        memorised_ms=memorised_ms,
     )
     return run, journal
 
@@ -116,8 +116,8 @@ def begin_mission(
     seed: int,
     *,
     build: CoachBuilder = build_coach,
-    memorised_ms: int = 0,
     variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 

@@ -66,20 +66,21 @@ class PlayOptions:
     seed: int
     log_dir: Path
     rescuer: str = "literal"
+    variant: Variant = USUAL
+    drawn: Building | None = None
+    """The building before the variant; None where they are the same."""
     memorise_ms: int = 0
     """For how long the map is shown first, to a person."""
     now: bool = False
     """Whether the clock starts at once, without the page before the mission."""
-    variant: Variant = USUAL
-    drawn: Building | None = None
-    """The building before the variant; None where they are the same."""
 
     def again(self) -> PlayOptions:
-        """The next mission: the next seed, and what follows from it."""
+        """The next mission: the next seed, and what follows from it; the map is known by now."""
         seed = self.seed + 1
-        if self.drawn is None:
-            return replace(self, seed=seed)
-        return replace(self, seed=seed, building=varied(self.drawn, self.variant, seed))
+        building = self.building
+        if self.drawn is not None:
+            building = varied(self.drawn, self.variant, seed)
+        return replace(self, seed=seed, building=building, memorise_ms=0, now=False)
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -335,8 +336,8 @@ class AnaApp(Program, inherit_bindings=False):
             options.seed,
             options.log_dir,
             this_terminal(*self.size),
-            memorised_ms=memorised_ms,
             variant=options.variant,
+            memorised_ms=memorised_ms,
         )
         return FreePlayScreen(LiveMission(run, journal), _path(journal))
 
@@ -393,7 +394,7 @@ class AnaApp(Program, inherit_bindings=False):
         result = message.sender
         if message.what == "again":
             options = self._options or self._chosen()
-            self.offer_mission(replace(options.again(), memorise_ms=0, now=False))
+            self.offer_mission(options.again())
         elif message.what == "replay":
             self.replay(result.journal)
         elif message.what == "card":
