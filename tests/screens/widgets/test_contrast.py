@@ -1,6 +1,6 @@
 """The colours of every theme can be told apart: by everybody, by a protanope, and in greyscale.
 
-Contrast is that of WCAG 2.1: (L1 + .05) / (L2 + .05) of relative luminances, which is what is left in
+Contrast is that of WCAG 2.1: (L1 + .05) / (L2 + .05) of relative luminances, all that is left in
 greyscale. Protanopia and deuteranopia are simulated as by Machado, Oliveira and Fernandes (2009),
 severity 1.
 """
@@ -79,7 +79,10 @@ def contrast(one: str, other: str, eyes: Matrix) -> float:
 @pytest.mark.parametrize("name", TODAY)
 def test_colours_can_be_told_apart(name: str, eyes: str) -> None:
     inks = TODAY[name].variables
-    found = {pair: contrast(*(inks[f"ana-{ink}"] for ink in pair), EYES[eyes]) for pair in LEAST}
+    found = {
+        (one, other): contrast(inks[f"ana-{one}"], inks[f"ana-{other}"], EYES[eyes])
+        for one, other in LEAST
+    }
     assert {pair: round(it, 2) for pair, it in found.items() if it < LEAST[pair]} == {}
 
 
