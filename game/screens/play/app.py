@@ -12,9 +12,11 @@ import sys
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, ClassVar
+from random import randrange
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from textual import events
 from textual.app import ComposeResult
@@ -36,8 +38,9 @@ from game.screens.widgets.signals import lead_out
 from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
+from game.world.library import GENERATED
 from game.world.settings import FREE_PLAY, MissionSettings
-from game.world.variant import USUAL, Variant, varied
+from game.world.variant import USUAL, Difficulty, Variant, day_seed, varied, with_demands
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
@@ -53,6 +56,10 @@ if TYPE_CHECKING:
     from game.screens.play.start_screen import StartScreen
     from game.screens.play.watch_screen import WatchScreen
     from game.session.replay import Replay
+
+
+NEW_SEEDS = 100_000
+"""Seeds chosen at home are below this, so that they can be typed again."""
 
 
 @dataclass(frozen=True)
@@ -73,14 +80,29 @@ class PlayOptions:
     """For how long the map is shown first, to a person."""
     now: bool = False
     """Whether the clock starts at once, without the page before the mission."""
+    onward: Literal["seed", "office", "same"] = "seed"
+    """What changes from one mission to the next: the seed, with it the whole office, or nothing,
+    as in the mission of the day."""
+
+    @property
+    def about(self) -> str:
+        """What sets this mission apart, in a few words."""
+        told = self.variant.of_seed(self.seed)
+        if self.onward == "same":
+            return ", ".join(filter(None, (f"Mission of the day {self.seed}", told)))
+        if self.onward == "office" and self.variant.victims == "drawn":
+            return ", ".join(filter(None, (f"Seed {self.seed}", told)))
+        return told
 
     def again(self) -> PlayOptions:
         """The next mission: the next seed, and what follows from it; the map is known by now."""
-        seed = self.seed + 1
-        building = self.building
-        if self.drawn is not None:
-            building = varied(self.drawn, self.variant, seed)
-        return replace(self, seed=seed, building=building, memorise_ms=0, now=False)
+        if self.onward == "same":
+            return replace(self, memorise_ms=0, now=False)
+        seed, drawn = self.seed + 1, self.drawn
+        if self.onward == "office":
+            drawn = load_building(f"{GENERATED}:{seed}")
+        building = self.building if drawn is None else varied(drawn, self.variant, seed)
+        return replace(self, seed=seed, building=building, drawn=drawn, memorise_ms=0, now=False)
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -168,15 +190,16 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.home import HomeScreen
 
         self._been_home = True
-        rules = self._options.settings if self._options else FREE_PLAY
-        self._replace(HomeScreen(self.preferences, self._log_dir(), rules))
+        self._replace(HomeScreen(self.preferences, self._log_dir(), self._rules_of))
 
     def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
         home = message.sender
         self._remember(home.preferences)
         match message.what:
             case "play":
-                self.offer_mission(self._chosen())
+                self.offer_mission(self._chosen(home.seed))
+            case "today":
+                self.offer_mission(self._todays())
             case "tutorial":
                 self.teach()
             case "watch":
@@ -216,20 +239,43 @@ class AnaApp(Program, inherit_bindings=False):
         self._remember(self.preferences.replaced(ground=ground))
         self.theme = theme_name(os.environ, self.preferences.ground)
 
-    def _chosen(self) -> PlayOptions:
+    def _rules_of(self, difficulty: Difficulty) -> MissionSettings:
+        """The rules of a difficulty; those of the command line where it is theirs."""
+        options = self._options
+        if options is not None and options.variant.difficulty == difficulty:
+            return options.settings
+        return with_demands(FREE_PLAY, difficulty)
+
+    def _chosen(self, typed: str = "") -> PlayOptions:
+        """The mission chosen at home, by the seed that was typed or a new one."""
+        chosen = self.preferences
+        seed = int(typed) if typed else randrange(1, NEW_SEEDS)
+        name = f"{GENERATED}:{seed}" if chosen.building == GENERATED else chosen.building
+        drawn = load_building(name, seed)
+        variant = Variant(chosen.victims, chosen.difficulty)
+        return PlayOptions(
+            varied(drawn, variant, seed),
+            self._coach(),
+            self._rules_of(chosen.difficulty),
+            seed,
+            self._log_dir(),
+            variant=variant,
+            drawn=drawn,
+            memorise_ms=1000 * chosen.memorise,
+            onward="office" if chosen.building == GENERATED else "seed",
+        )
+
+    def _todays(self) -> PlayOptions:
+        """The mission of the day, with the coach chosen at home."""
+        seed = day_seed(datetime.now(UTC))
+        building, rules = load_building(f"{GENERATED}:{seed}"), self._rules_of("standard")
+        return PlayOptions(building, self._coach(), rules, seed, self._log_dir(), onward="same")
+
+    def _coach(self) -> CoachSpec:
         from game.coach.spec import parse_coach
 
         kind, _, level = self.preferences.coach.partition("-")
-        seed = int.from_bytes(os.urandom(4))
-        settings = self._options.settings if self._options else FREE_PLAY
-        return PlayOptions(
-            load_building(self.preferences.building),
-            parse_coach(kind, int(level) if level else None),
-            settings,
-            seed,
-            self._log_dir(),
-            memorise_ms=1000 * self.preferences.memorise,
-        )
+        return parse_coach(kind, int(level) if level else None)
 
     # --- the tutorial ---------------------------------------------------------------------------
 
@@ -297,7 +343,9 @@ class AnaApp(Program, inherit_bindings=False):
         if options.now:
             begin()
         else:
-            self._replace(StartScreen(options.building, options.settings, options.spec, begin))
+            self._replace(
+                StartScreen(options.building, options.settings, options.spec, begin, options.about)
+            )
 
     def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
         if message.what == "start":
