@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from textual import events
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
 from textual.geometry import Size
 from textual.screen import Screen
 from textual.widgets import Static
@@ -34,7 +35,7 @@ from game.screens.widgets.preferences import (
     save_preferences,
 )
 from game.screens.widgets.program import Program
-from game.screens.widgets.signals import lead_out
+from game.screens.widgets.signals import has_job_control, lead_out, suspend_group
 from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
@@ -108,6 +109,9 @@ class PlayOptions:
 class AnaApp(Program, inherit_bindings=False):
     """Every screen in one program; `first` makes the one it begins with."""
 
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+z", "stand_aside", id="app.suspend", priority=True),
+    ]
     CSS_PATH: ClassVar[list[str | PurePath]] = [
         "../widgets/styles/base.tcss",
         "../widgets/styles/mission.tcss",
@@ -159,6 +163,22 @@ class AnaApp(Program, inherit_bindings=False):
     def on_failed(self, message: Failed) -> None:
         self.failure = message.error
         self.exit(return_code=2)
+
+    def action_stand_aside(self) -> None:
+        """Stop the clock, and give the terminal back to the shell that started the game."""
+        from game.screens.play.map_screen import MapScreen
+        from game.screens.play.mission_screen import LiveScreen
+        from game.screens.widgets.dialogs import Notice
+
+        screen = self.screen
+        if isinstance(screen, LiveScreen):
+            if not screen.live.settings.allow_pause:
+                return
+            screen.action_pause()
+        elif isinstance(screen, MapScreen):
+            self.push_screen(Notice("Paused", "The time for the map stands still.", key="Resume"))
+        if has_job_control():
+            self.call_after_refresh(suspend_group)
 
     # --- the window -----------------------------------------------------------------------------
 
