@@ -13,6 +13,7 @@ from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.sources.samples import left_by
 from analysis.sources.source import load_study
 from analysis.sources.study_folder import Tick
+from analysis.stats.adaptivity import adaptivity_tests, why_they_differ
 from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.cellmodel import contrast_row, weights_of
@@ -37,7 +38,7 @@ from analysis.stats.posthoc import (
 from analysis.stats.power import power_rows
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.reliability import alpha_rows
-from analysis.stats.sensitivity import continuous_rows, exclusion_rows
+from analysis.stats.sensitivity import continuous_rows, exclusion_rows, other_grouping_rows
 from game.journal.records import StudyMode
 from game.tables.exclusions import ExclusionRules, read_rules
 
@@ -96,6 +97,15 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         outcome: pair if isinstance(pair, Absent) else attempt(mixed_anova, pair)
         for outcome, pair in pairs.items()
     }
+    tests = {
+        outcome: pair if isinstance(pair, Absent) else attempt(adaptivity_tests, pair)
+        for outcome, pair in pairs.items()
+    }
+    by_outcome: dict[str, Tree] = {
+        outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome])
+        | {"adaptivity_tests": tests[outcome]}
+        for outcome in OUTCOMES
+    }
     tree: Row = {
         "source": {
             "label": study.label,
@@ -107,16 +117,16 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         },
         "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
         "alpha": alpha_rows(study),
-        "outcomes": {
-            outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome])
-            for outcome in OUTCOMES
-        },
+        "outcomes": by_outcome,
         "holm_across_mental_states": holm_across({state: anovas[state] for state in MENTAL_STATES}),
         "preferred_instructor": attempt(preferred_rows, study),
         "ordinal": ordinal_rows(study),
         "order_and_building": order_rows(study),
         "sensitivity": {
             "exclusions": exclusion_rows(randomised, rules),
+            "other_groupings": other_grouping_rows(study, clustering)
+            if not isinstance(clustering, Absent) and not sample.study.has("knowledge")
+            else Absent("the groups are not formed from quiz scores"),
             "continuous_score": {
                 outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
             },
@@ -124,6 +134,7 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         "power": power_rows(group_shares(study)),
     }
     problems = tuple(_problems(study, clustering, anovas))
+    notes += why_they_differ(tests)
     values, reasons = plain(tree)
     if not isinstance(values, dict):
         raise TypeError("the results are not a mapping")

@@ -5,6 +5,7 @@ from typing import Any
 
 from analysis.sources.absent import Plain
 from analysis.sources.frames import StudyData
+from analysis.stats.apa import bounded, p_value
 
 #: Comparisons are listed below this Holm-adjusted p.
 SIGNIFICANT = 0.05
@@ -60,17 +61,17 @@ def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> 
         paired = rows["paired"]
         lines.append(
             f"  adaptive - static: {paired['mean_diff']:+.2f} (d_z {paired['dz']:+.2f}), TOST p "
-            f"{_p(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
+            f"{p_value(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
         )
     return lines
 
 
 def _anova_line(outcome: str, row: Mapping[str, Any], holm: Mapping[str, Any]) -> str:
     df = f"{row['df1']}, {row['df2']}"
-    corrected = _p(holm[row["effect"]][outcome]) if outcome in holm[row["effect"]] else ""
+    corrected = p_value(holm[row["effect"]][outcome]) if outcome in holm[row["effect"]] else ""
     return (
-        f"  {row['effect']:<32}{df:>7}{row['F']:>9.3f}{_p(row['p']):>7}{corrected:>8}"
-        f"{_p(row['pes']):>7}{_p(row['ges_obs_knowledge']):>7}"
+        f"  {row['effect']:<32}{df:>7}{row['F']:>9.3f}{p_value(row['p']):>7}{corrected:>8}"
+        f"{bounded(row['pes']):>7}{bounded(row['ges_obs_knowledge']):>7}"
     )
 
 
@@ -85,16 +86,10 @@ def _comparisons(rows: Mapping[str, Any]) -> list[str]:
         for row in rows["posthoc_diff_knowledge_within_complexity"] or ()
     ]
     return [
-        f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {_p(row['p_holm'])}"
+        f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {p_value(row['p_holm'])}"
         for where, row in (*within, *between)
         if row["p_holm"] is not None and row["p_holm"] < SIGNIFICANT
     ]
-
-
-def _p(value: float | None) -> str:
-    if value is None:
-        return "-"
-    return "<.001" if value < 0.001 else f"{value:.3f}".replace("0.", ".", 1)
 
 
 def _number(value: float | None) -> str:

@@ -93,13 +93,17 @@ def open_source(source: str) -> Opened:
 
 
 def show(figure: Captioned | Absent) -> Shown:
-    """A figure, whose caption, drawn below it, says what to see; or why it cannot be had."""
+    """A figure with its caption below, which says what to see; or why it cannot be had."""
     if isinstance(figure, Absent):
         return Shown(f"<p>No figure: {escape(figure.reason)}.</p>", figure.reason)
     image = io.BytesIO()
     figure.figure.savefig(image, format="png", dpi=DPI)
     data = base64.b64encode(image.getvalue()).decode()
-    html = f'<img alt="{escape(figure.caption)}" src="data:image/png;base64,{data}">'
+    caption = escape(figure.caption)
+    html = (
+        f'<figure><img alt="{caption}" src="data:image/png;base64,{data}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
     return Shown(html, figure.caption)
 
 

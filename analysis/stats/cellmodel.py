@@ -57,12 +57,17 @@ class Contrast:
 
     def interval(self, level: float) -> tuple[float | Absent, float | Absent]:
         """The two-sided confidence interval of this level (0 to 1)."""
-        if isinstance(self.estimate, Absent):
-            return self.estimate, self.estimate
-        if isinstance(self.se, Absent):
-            return self.se, self.se
-        reach = float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
+        reach = self.half_width(level)
+        if isinstance(self.estimate, Absent) or isinstance(reach, Absent):
+            gone = self.estimate if isinstance(self.estimate, Absent) else reach
+            return gone, gone
         return self.estimate - reach, self.estimate + reach
+
+    def half_width(self, level: float) -> float | Absent:
+        """Half the length of that interval."""
+        if isinstance(self.se, Absent):
+            return self.se
+        return float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
 
 
 @dataclass(frozen=True)
