@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
 from typing import Any
 
 from game.errors import AnaError, choose_from
@@ -12,6 +13,9 @@ REQUIRED = (("debrief", "code"),)
 """Pages that must have a fact: without the completion code nobody can be paid."""
 
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")
+_ALMOST = re.compile(r"[{\uff5b]+\s*(\w+)\s*[}\uff5d]*|[{\uff5b]*\s*(\w+)\s*[}\uff5d]+")
+"""Something in braces, also where they are doubled, half missing, or the wide ones of Chinese and
+Japanese keyboards."""
 
 
 class PlaceholderError(AnaError):
@@ -31,6 +35,15 @@ def check_placeholders(given: Mapping[str, Any], shipped: Mapping[str, Any], pla
                 )
                 raise PlaceholderError(
                     f"there is no {{{name}}} to be filled in", place=f"{place}, {key}", hint=hint
+                )
+        for almost in _ALMOST.finditer(text):
+            word, written = almost[1] or almost[2], almost[0].strip()
+            name = next(iter(get_close_matches(word, known, 1)), "")
+            if name and written != f"{{{name}}}":
+                raise PlaceholderError(
+                    f"'{written}' is not filled in",
+                    place=f"{place}, {key}",
+                    hint=f"Write {{{name}}}",
                 )
     for page, name in REQUIRED:
         if name not in _names(given.get(page, {})):

@@ -33,6 +33,18 @@ class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     pass
 
 
+def _not_empty(what: str, *texts: str) -> None:
+    if not all(text.strip() for text in texts):
+        raise ValueError(f"{what} must not be empty")
+
+
+def _told_apart(what: str, *texts: str) -> None:
+    """Raise ValueError unless all are there and different."""
+    _not_empty(what, *texts)
+    if len({text.strip().casefold() for text in texts}) < len(texts):
+        raise ValueError(f"{what} must differ from each other")
+
+
 class Page(_Part, frozen=True):
     """A title and its text; blank lines separate paragraphs, and `**words**` are highlighted."""
 
@@ -44,12 +56,18 @@ class Consent(Page, frozen=True):
     agree: str
     decline: str
 
+    def __post_init__(self) -> None:
+        _told_apart("the answers", self.agree, self.decline)
+
 
 class InstructorNames(_Part, frozen=True):
     """Neutral names for the instructors of the first and the second round."""
 
     first: str
     second: str
+
+    def __post_init__(self) -> None:
+        _told_apart("the names of the instructors", self.first, self.second)
 
     def of(self, round_: int) -> str:
         """The instructor of round 1 or 2."""
@@ -196,10 +214,17 @@ class Slider(_Part, frozen=True):
     low: str
     high: str
 
+    def __post_init__(self) -> None:
+        _not_empty("text", self.text)
+        _told_apart("low and high", self.low, self.high)
+
 
 class Statement(_Part, frozen=True):
     id: str
     text: str
+
+    def __post_init__(self) -> None:
+        _not_empty("text", self.text)
 
 
 class AnswerScale(_Part, frozen=True):
@@ -212,6 +237,7 @@ class AnswerScale(_Part, frozen=True):
             raise ValueError(
                 f"the scale must have {LIKERT_POINTS} answers, not {len(self.answers)}"
             )
+        _told_apart("the answers", *self.answers)
 
 
 class CheckQuestion(_Part, frozen=True):
@@ -225,6 +251,8 @@ class CheckQuestion(_Part, frozen=True):
     def __post_init__(self) -> None:
         if not 1 <= self.right <= len(self.answers):
             raise ValueError(f"right must be between 1 and {len(self.answers)}, not {self.right}")
+        _not_empty("text", self.text)
+        _told_apart("the answers", *self.answers)
 
 
 class Items(_Part, frozen=True):
