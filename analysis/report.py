@@ -7,9 +7,6 @@ from analysis.sources.absent import Plain
 from analysis.sources.frames import StudyData
 from analysis.stats.apa import bounded, p_value
 
-#: Comparisons are listed below this Holm-adjusted p.
-SIGNIFICANT = 0.05
-
 
 def summary(
     study: StudyData, results: Mapping[str, Plain], problems: Sequence[str], notes: Sequence[str]
@@ -28,7 +25,10 @@ def summary(
         "",
     ]
     for outcome, rows in numbers["outcomes"].items():
-        lines += [*_outcome(outcome, rows, numbers["holm_across_mental_states"]), ""]
+        lines += [
+            *_outcome(outcome, rows, numbers["holm_across_mental_states"], source["alpha_level"]),
+            "",
+        ]
     lines += [f"problem: {problem}" for problem in problems]
     lines += [f"note: {note}" for note in notes]
     return "\n".join(lines).rstrip() + "\n"
@@ -47,7 +47,9 @@ def _alpha(numbers: Mapping[str, Any]) -> float | None:
     return value
 
 
-def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> list[str]:
+def _outcome(
+    outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any], alpha: float
+) -> list[str]:
     lines = [f"{outcome}  (n = {rows['n']}, {rows['n_dropped']} without both rounds or a group)"]
     if rows["anova"] is None:
         lines.append("  no ANOVA; see the problems below")
@@ -56,7 +58,7 @@ def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> 
             f"  {'effect':<33}{'df':>6}{'F':>9}{'p':>7}{'p Holm':>8}{'eta_p':>7}{'eta_g':>7}"
         )
         lines += [_anova_line(outcome, row, holm) for row in rows["anova"][1:]]
-    lines += _comparisons(rows)
+    lines += _comparisons(rows, alpha)
     if rows["paired"] is not None:
         paired = rows["paired"]
         lines.append(
@@ -75,8 +77,8 @@ def _anova_line(outcome: str, row: Mapping[str, Any], holm: Mapping[str, Any]) -
     )
 
 
-def _comparisons(rows: Mapping[str, Any]) -> list[str]:
-    """Comparisons of the paper's Figs. 7 and 9 that stay below .05 after Holm."""
+def _comparisons(rows: Mapping[str, Any], alpha: float) -> list[str]:
+    """Comparisons of the paper's Figs. 7 and 9 that stay below alpha after Holm."""
     within = [
         (f"{row['knowledge']}, {row['adaptivity']}", row)
         for row in rows["posthoc_complexity_within_knowledge_by_round"] or ()
@@ -88,7 +90,7 @@ def _comparisons(rows: Mapping[str, Any]) -> list[str]:
     return [
         f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {p_value(row['p_holm'])}"
         for where, row in (*within, *between)
-        if row["p_holm"] is not None and row["p_holm"] < SIGNIFICANT
+        if row["p_holm"] is not None and row["p_holm"] < alpha
     ]
 
 

@@ -33,20 +33,20 @@ from analysis.sources.factors import (
 )
 from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.adaptivity import overall
-from analysis.stats.apa import p_words
+from analysis.stats.apa import bounded, p_words
 from analysis.stats.cellmodel import CELLS, weights_of
 from analysis.stats.equivalence import BOUND_SDS
+from analysis.stats.level import ALPHA, percent
 from analysis.stats.posthoc import (
     RoundModels,
     complexity_within_knowledge_by_round,
     difference_knowledge_within_complexity,
 )
 
-SIGNIFICANT = 0.05
 OFFSETS = dict(zip(COMPLEXITY, (-0.24, 0.0, 0.24), strict=True))
 
 
-def fig7_mental_states(study: StudyData) -> Captioned:
+def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """Mental states in the static round by knowledge group and static level (Fig. 7).
 
     Points, means and comparisons are of the same people, those of the ANOVA.
@@ -70,7 +70,7 @@ def fig7_mental_states(study: StudyData) -> Captioned:
                         LEVEL_MARKERS[level],
                         0.1,
                     )
-            _level_brackets(axes, complexity_within_knowledge_by_round(RoundModels.of(pair)))
+            _level_brackets(axes, alpha, complexity_within_knowledge_by_round(RoundModels.of(pair)))
             axes.set_xticks(range(len(KNOWLEDGE)), [_with_n(pair, group) for group in KNOWLEDGE])
             axes.set_xlim(-0.5, len(KNOWLEDGE) - 0.5)
             axes.set_yticks(range(0, 101, 25))
@@ -96,7 +96,8 @@ def fig7_mental_states(study: StudyData) -> Captioned:
             "at its own level (shaded). Points are people with both rounds, the people of the "
             "ANOVA; n is given for C1, C2 and C3. Large symbols are means, error bars one standard "
             "error (none for one person); brackets are comparisons within a group with "
-            "Holm-adjusted p below .05.",
+            "Holm-adjusted p below "
+            f"{bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
 
@@ -130,7 +131,9 @@ def fig8_performance(study: StudyData) -> Captioned:
         )
 
 
-def fig9_adaptivity(study: StudyData, outcome: str = "engagement") -> Captioned:
+def fig9_adaptivity(
+    study: StudyData, outcome: str = "engagement", alpha: float = ALPHA
+) -> Captioned:
     """adaptive - static of one outcome by static level and knowledge group (Fig. 9)."""
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 3.6))
@@ -152,7 +155,7 @@ def fig9_adaptivity(study: StudyData, outcome: str = "engagement") -> Captioned:
             axes.set_xlim(-0.6, len(KNOWLEDGE) - 0.4)
         reach = max([1.0, *np.abs(pair.difference)])
         panels[0].set_ylim(-1.05 * reach, 1.05 * reach)
-        _group_brackets(panels, comparisons)
+        _group_brackets(panels, alpha, comparisons)
         panels[0].set_ylabel(f"{outcome}: adaptive - static (mean \u00b1 SE)")
         panels[1].set_xlabel("knowledge group")
         return captioned(
@@ -161,17 +164,20 @@ def fig9_adaptivity(study: StudyData, outcome: str = "engagement") -> Captioned:
             f"Gain in {outcome} with the adaptive instructor: see whether people whose static "
             "level did not fit their knowledge gain (up, blue) and the aligned (shaded) lose "
             "(down, red). Points are people, large symbols means, error bars one standard error; "
-            "brackets are comparisons within a level with Holm-adjusted p below .05.",
+            "brackets are comparisons within a level with Holm-adjusted p below "
+            f"{bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
 
 
-def adaptivity_estimates(study: StudyData) -> Captioned:
+def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """adaptive - static of every outcome in standard deviations of its static round.
 
     The nine cells count equally, as in the ANOVA's test; without knowledge groups or with an empty
     cell people count equally, and the label says so.
     """
+    outer, inner = 1 - alpha, 1 - 2 * alpha
+    thin, thick = percent(outer), percent(inner)
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 3.2))
         axes = figure.subplots()
@@ -190,7 +196,7 @@ def adaptivity_estimates(study: StudyData) -> Captioned:
                 continue
             weights = "" if estimate.equal_cells else ", people equal"
             labels.append(f"{outcome} (n = {estimate.n}{weights})")
-            for level, width in ((0.95, 1.2), (0.90, 3.2)):
+            for level, width in ((outer, 1.2), (inner, 3.2)):
                 ends = estimate.interval(level)
                 axes.plot(ends, [at, at], color=BLUE, linewidth=width, solid_capstyle="butt")
                 reach = max(reach, *np.abs(ends))
@@ -199,20 +205,20 @@ def adaptivity_estimates(study: StudyData) -> Captioned:
         axes.set_ylim(len(OUTCOMES) - 0.5, -0.5)
         axes.set_xlim(-1.08 * reach, 1.08 * reach)
         axes.set_xlabel(
-            "adaptive - static, in standard deviations of the static round (90% thick, 95% thin)"
+            f"adaptive - static, in SD of the static round ({thick} CI thick, {thin} CI thin)"
         )
         return captioned(
             "adaptivity_estimates",
             figure,
-            "Overall effect of adaptivity with 90% (thick) and 95% (thin) confidence intervals: an "
-            "interval inside the grey band is equivalent to none at half a standard deviation, one "
-            "that misses zero is a difference. The nine cells of knowledge and level count "
-            "equally, as in the ANOVA's test of adaptivity.",
+            f"Overall effect of adaptivity with {thick} (thick) and {thin} (thin) confidence "
+            "intervals: a thick interval inside the grey band is equivalent to none at half a "
+            "standard deviation, a thin one that misses zero is a difference. The nine cells of "
+            "knowledge and level count equally, as in the ANOVA's test of adaptivity.",
             simulated=study.simulated,
         )
 
 
-def cells_figure(study: StudyData, outcome: str) -> Captioned:
+def cells_figure(study: StudyData, outcome: str, alpha: float = ALPHA) -> Captioned:
     """Everybody's answer in the nine cells, in each round, with estimated means."""
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 4.4))
@@ -226,7 +232,7 @@ def cells_figure(study: StudyData, outcome: str) -> Captioned:
                 ticks = []
                 for at, level in enumerate(COMPLEXITY):
                     values = rounds[name][_inside(pair, group, level)]
-                    half = model.contrast(weights_of([(group, level)])).half_width(0.95)
+                    half = model.contrast(weights_of([(group, level)])).half_width(1 - alpha)
                     bar = None if isinstance(half, Absent) else half
                     _mean_and_bar(
                         axes, at, values, LEVEL_COLOURS[level], LEVEL_MARKERS[level], bar, 0.3
@@ -241,7 +247,7 @@ def cells_figure(study: StudyData, outcome: str) -> Captioned:
         margin = max(0.06 * (high - low), 0.5)
         panels[0, 0].set_ylim(low - margin, high + margin)
         for axes in panels[:, 0]:
-            axes.set_ylabel(f"{outcome} (mean, 95% CI)")
+            axes.set_ylabel(f"{outcome} (mean, {percent(1 - alpha)} CI)")
         for axes in panels[1]:
             axes.set_xlabel("static level")
         return captioned(
@@ -249,35 +255,37 @@ def cells_figure(study: StudyData, outcome: str) -> Captioned:
             figure,
             f"Every answer for {outcome} by knowledge group, static level and round: see how far "
             "the people of a cell spread about its mean. Points are people with both rounds, large "
-            "symbols cell means, error bars 95% confidence intervals from the round's pooled "
-            "error.",
+            f"symbols cell means, error bars {percent(1 - alpha)} confidence intervals from the "
+            "round's pooled error.",
             simulated=study.simulated,
         )
 
 
-def figures_of(study: StudyData) -> list[Captioned]:
+def figures_of(study: StudyData, alpha: float = ALPHA) -> list[Captioned]:
     """Every figure that the study can fill, in the paper's order.
 
     Without knowledge groups these are the overall estimates alone.
     """
     if not study.has("knowledge"):
-        return [adaptivity_estimates(study)]
+        return [adaptivity_estimates(study, alpha)]
     return [
-        fig7_mental_states(study),
+        fig7_mental_states(study, alpha),
         fig8_performance(study),
-        fig9_adaptivity(study),
-        adaptivity_estimates(study),
-        *(cells_figure(study, outcome) for outcome in OUTCOMES),
+        fig9_adaptivity(study, alpha=alpha),
+        adaptivity_estimates(study, alpha),
+        *(cells_figure(study, outcome, alpha) for outcome in OUTCOMES),
     ]
 
 
-def write_figures(study: StudyData, folder: Path) -> list[Path]:
+def write_figures(
+    study: StudyData, folder: Path, alpha: float = ALPHA, origin: str = ""
+) -> list[Path]:
     """Draw every figure that the study can fill into `folder`, and their captions.
 
     Raises OSError where the folder cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    return save_figures(figures_of(study), folder)
+    return save_figures(figures_of(study, alpha), folder, origin)
 
 
 def _inside(pair: Paired, group: str, level: str) -> NDArray[np.bool_]:
@@ -356,17 +364,17 @@ def side_by_side(values: Floats, reach: float) -> Floats:
     return offsets
 
 
-def _significant(row: Row) -> str | None:
+def _significant(row: Row, alpha: float) -> str | None:
     p = row["p_holm"]
-    if isinstance(p, Absent) or not isinstance(p, float) or p >= SIGNIFICANT:
+    if isinstance(p, Absent) or not isinstance(p, float) or p >= alpha:
         return None
     return p_words(p)
 
 
-def _level_brackets(axes: Axes, comparisons: list[Row]) -> None:
+def _level_brackets(axes: Axes, alpha: float, comparisons: list[Row]) -> None:
     heights = dict.fromkeys(KNOWLEDGE, 101.0)
     for row in comparisons:
-        text = _significant(row)
+        text = _significant(row, alpha)
         group = str(row["knowledge"])
         if row["adaptivity"] == "static" and text:
             one, other = str(row["contrast"]).split(" - ")
@@ -376,13 +384,13 @@ def _level_brackets(axes: Axes, comparisons: list[Row]) -> None:
 
 
 def _group_brackets(
-    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", rows: list[Row]
+    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", alpha: float, rows: list[Row]
 ) -> None:
     low, high = panels[0].get_ylim()
     step = 0.09 * (high - low)
     heights = dict.fromkeys(COMPLEXITY, high)
     for row in rows:
-        text = _significant(row)
+        text = _significant(row, alpha)
         level = str(row["complexity"])
         if text:
             one, other = (KNOWLEDGE.index(name) for name in str(row["contrast"]).split(" - "))

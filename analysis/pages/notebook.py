@@ -24,7 +24,6 @@ from game.tables.exclusions import ExclusionRules, read_rules
 
 #: Names another source for all notebooks, in place of the one in their parameter cell.
 VARIABLE = "ANA_SOURCE"
-PUBLISHED = Path(__file__).resolve().parents[2] / "data" / "paper"
 DPI = 130
 
 

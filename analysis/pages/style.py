@@ -70,6 +70,9 @@ FORMATS: dict[str, dict[str, str | None]] = {
     "png": {"Software": None},
 }
 
+#: What a description is called in each kind of file.
+DESCRIPTIONS = {"svg": "Description", "pdf": "Subject", "png": "Description"}
+
 
 @dataclass(frozen=True)
 class Captioned:
@@ -97,18 +100,21 @@ def captioned(name: str, figure: Figure, caption: str, *, simulated: bool) -> Ca
         figure.text(0.01, 0.02 / figure.get_figheight(), SIMULATED, fontsize=7, weight="bold",
                     color=VERMILION, va="bottom", ha="left")  # fmt: skip
     figure.set_layout_engine("constrained", rect=(0, bottom, 1, 1 - bottom))
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")  # laid out once, whatever it is written to
     return Captioned(name, figure, f"{SIMULATED}. {caption}" if simulated else caption)
 
 
-def save_figures(drawn: Sequence[Captioned], folder: Path) -> list[Path]:
+def save_figures(drawn: Sequence[Captioned], folder: Path, origin: str = "") -> list[Path]:
     """Write each figure as SVG, PDF and PNG (300 dots an inch) into a folder that exists, and
-    their captions into captions.txt."""
+    their captions into captions.txt; `origin` is written into each file's description."""
     paths = []
     for item in drawn:
-        for kind, told in FORMATS.items():
+        for kind, undated in FORMATS.items():
             path = folder / f"{item.name}.{kind}"
+            told = {DESCRIPTIONS[kind]: origin} if origin else {}
             with quiet_style():
-                item.figure.savefig(path, metadata=told)
+                item.figure.savefig(path, metadata=undated | told)
             paths.append(path)
     captions = "".join(f"{item.name}\n{item.caption}\n\n" for item in drawn)
     (folder / "captions.txt").write_text(captions, encoding="utf-8")

@@ -16,9 +16,8 @@ from analysis.sources.frames import Floats, Paired, StudyData, both_rounds, pair
 from analysis.stats.apa import p_words
 from analysis.stats.assumptions import hc3_rows
 from analysis.stats.cellmodel import CELLS, weights_of
+from analysis.stats.level import ALPHA
 from analysis.stats.posthoc import RoundModels
-
-ALPHA = 0.05
 
 
 @dataclass(frozen=True)

@@ -26,16 +26,27 @@ def bounded(value: float | Absent | None, digits: int = 3) -> str:
     return text.replace("0.", ".", 1) if text.lstrip(MINUS).startswith("0.") else text
 
 
+def share(value: float | Absent | None, digits: int = 3) -> str:
+    """A share of variance, never below nothing: ".164", or "< .001" where it rounds to nil."""
+    text = bounded(value, digits)
+    least = f".{'0' * (digits - 1)}1"
+    return f"< {least}" if text == f".{'0' * digits}" else text
+
+
+def equals(text: str) -> str:
+    """What a sentence has after a symbol: "= .021", or the text that has a sign already."""
+    return text if text[0] in "<>" else f"= {text}"
+
+
 def p_value(p: float | Absent | None) -> str:
     """ ".021", "< .001" or "> .999"."""
     if p is None or isinstance(p, Absent):
         return DASH
     if p < 0.001:
         return "< .001"
-    return "> .999" if p > 0.9995 else bounded(p)
+    return "> .999" if f"{p:.3f}" == "1.000" else bounded(p)
 
 
 def p_words(p: float | Absent | None) -> str:
     """ "p = .021" or "p < .001"."""
-    text = p_value(p)
-    return f"p {text}" if text[0] in "<>" else f"p = {text}"
+    return f"p {equals(p_value(p))}"

@@ -1,7 +1,8 @@
 # The reference numbers of this folder, by R: `make reference` computes them all again and fails when
 # one has moved; `make reference WRITE=1` writes them. Run from this folder.
 
-PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "jsonlite")
+PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "effectsize",
+              "jsonlite")
 absent <- PACKAGES[!vapply(PACKAGES, requireNamespace, logical(1), quietly = TRUE)]
 if (length(absent)) {
   debian <- paste0("r-cran-", tolower(absent), collapse = " ")
@@ -86,7 +87,9 @@ anova_of <- function(wide) {
   rows <- lapply(EFFECTS, function(effect) {
     at <- table[effect, ]
     within <- grepl("adaptivity", effect)
+    eta <- F_to_eta2(at[["F value"]], at[["num Df"]], at[["den Df"]], ci = 0.9, alternative = "two.sided")
     list(effect = effect, df1 = at[["num Df"]], df2 = at[["den Df"]], ss = at[["Sum Sq"]],
+         pes.lower = eta$CI_low, pes.upper = eta$CI_high,
          ss_error = at[["Error SS"]], mse = at[["Error SS"]] / at[["den Df"]], F = at[["F value"]],
          p = at[["Pr(>F)"]], pes = at[["Sum Sq"]] / (at[["Sum Sq"]] + at[["Error SS"]]),
          ges = none[[effect]], ges_obs_knowledge = knowledge[[effect]],
@@ -95,10 +98,21 @@ anova_of <- function(wide) {
   list(rows = rows, fit = fit, long = long, mean_fit = mean_fit, diff_fit = diff_fit)
 }
 
-adjusted <- function(emm, by, what = "pairwise") {
-  shown <- function(adjust) as.data.frame(summary(contrast(emm, what, by = by), adjust = adjust))
+# d is the estimate over the pooled standard deviation within cells, its interval that of the
+# noncentral t.
+with_d <- function(frame, sigma) {
+  found <- t_to_d(frame$t.ratio, frame$df, paired = TRUE, ci = 0.95)
+  scale <- frame$SE / sigma
+  frame$d <- frame$estimate / sigma
+  frame$d.lower <- found$CI_low * sqrt(frame$df) * scale
+  frame$d.upper <- found$CI_high * sqrt(frame$df) * scale
+  frame
+}
+
+adjusted <- function(emm, by, sigma, what = "pairwise") {
+  shown <- function(adjust) as.data.frame(summary(contrast(emm, what, by = by), infer = c(TRUE, TRUE), adjust = adjust))
   base <- shown("none")
-  out <- base[setdiff(names(base), "p.value")]
+  out <- with_d(base[setdiff(names(base), "p.value")], sigma(base))
   for (adjust in c("none", "bonf", "sidak", "holm")) out[[paste0("p_", adjust)]] <- shown(adjust)$p.value
   out
 }
@@ -163,13 +177,16 @@ hc3_of <- function(wide) {
 paired_of <- function(wide) {
   d <- wide$a - wide$s
   test <- t.test(d)
+  dz <- t_to_d(test$statistic[[1]], length(d) - 1, paired = TRUE, ci = 0.95)
   # The bound is half a standard deviation of the static round, the smallest effect of interest.
   bound <- 0.5 * sd(wide$s)
   n <- length(d); se <- sd(d) / sqrt(n)
   low <- pt((mean(d) + bound) / se, n - 1, lower.tail = FALSE)
   high <- pt((mean(d) - bound) / se, n - 1)
   list(mean_diff = mean(d), sd_diff = sd(d), t = test$statistic[[1]], df = n - 1, p = test$p.value,
-       dz = mean(d) / sd(d),
+       lower.CL = test$conf.int[1], upper.CL = test$conf.int[2], dz = mean(d) / sd(d),
+       dz.lower = dz$CI_low * sqrt((length(d) - 1) / length(d)),
+       dz.upper = dz$CI_high * sqrt((length(d) - 1) / length(d)),
        bf10_jzs_r0707 = extractBF(ttestBF(d, rscale = sqrt(2) / 2), onlybf = TRUE)[[1]],
        tost_bound = bound, tost_p = max(low, high))
 }
@@ -212,19 +229,25 @@ outcome_of <- function(data, outcome) {
   full <- emmeans(fit, ~ knowledge * complexity * adaptivity)
   diff_fit <- lm(a - s ~ knowledge * complexity, wide)
   diffs <- emmeans(diff_fit, ~ knowledge * complexity)
-  all36 <- adjusted(diffs, NULL)
+  residual <- function(y) sigma(lm(y ~ knowledge * complexity, wide))
+  sigmas <- c(static = residual(wide$s), adaptive = residual(wide$a))
+  of_round <- function(rows) sigmas[as.character(rows$adaptivity)]
+  of_mean <- function(rows) residual((wide$s + wide$a) / 2)
+  of_diff <- function(rows) residual(wide$a - wide$s)
+  all36 <- adjusted(diffs, NULL, of_diff)
   all36$p_tukey <- as.data.frame(summary(contrast(diffs, "pairwise"), adjust = "tukey"))$p.value
-  simple <- as.data.frame(contrast(full, "revpairwise", by = c("knowledge", "complexity")))
+  simple <- as.data.frame(summary(contrast(full, "revpairwise", by = c("knowledge", "complexity")), infer = c(TRUE, TRUE)))
+  simple <- with_d(simple, of_diff(simple))
   marginal <- as.data.frame(confint(contrast(emmeans(fit, ~ adaptivity), "revpairwise"), level = 0.9))
   list(
     n = nrow(wide), n_dropped = people - nrow(wide), anova = made$rows, cells = records(cells),
     emm = list(knowledge = emm_rows(fit, "knowledge"), complexity = emm_rows(fit, "complexity"),
                adaptivity = emm_rows(fit, "adaptivity"),
                knowledge_complexity_adaptivity = records(plain(as.data.frame(full)))),
-    posthoc_complexity_within_knowledge_by_round = records(plain(adjusted(full, c("knowledge", "adaptivity"), "pairwise"))),
-    posthoc_complexity_within_knowledge_avg = records(plain(adjusted(emmeans(fit, ~ complexity | knowledge), "knowledge"))),
+    posthoc_complexity_within_knowledge_by_round = records(plain(adjusted(full, c("knowledge", "adaptivity"), of_round))),
+    posthoc_complexity_within_knowledge_avg = records(plain(adjusted(emmeans(fit, ~ complexity | knowledge), "knowledge", of_mean))),
     simple_adaptivity_within_cell = records(plain(simple)),
-    posthoc_diff_knowledge_within_complexity = records(plain(adjusted(diffs, "complexity"))),
+    posthoc_diff_knowledge_within_complexity = records(plain(adjusted(diffs, "complexity", of_diff))),
     posthoc_diff_all36 = records(plain(all36)),
     adaptivity_marginal = records(plain(marginal)),
     wrong = wrong_of(made, wide), assumptions = assumptions_of(wide), hc3_diff = hc3_of(wide),
