@@ -50,7 +50,7 @@ contract: $(VENV)/all.stamp  ## check which room may import which
 reference:  ## compute the reference numbers of the statistics again with R, and compare
 	@command -v Rscript >/dev/null || { \
 	  echo "make reference needs R and its packages, and there is no 'Rscript' here." >&2; \
-	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,effectsize,jsonlite}" >&2; exit 2; }
+	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,jsonlite}" >&2; exit 2; }
 	@cd tests/reference && WRITE=$(WRITE) Rscript reference.R
 
 schema: $(VENV)/all.stamp  ## write the schema of journals from the types
@@ -63,6 +63,7 @@ COMPILE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.1
 pins: $(VENV)/all.stamp  ## resolve the dependencies anew and pin them
 	$(COMPILE) --upgrade --all-extras --output-file requirements/all.txt
 	$(COMPILE) --upgrade --constraint requirements/all.txt --output-file requirements/play.txt
+	$(COMPILE) --upgrade --constraint requirements/all.txt --extra web --output-file requirements/web.txt
 
 # --- set-up -------------------------------------------------------------------------------------
 

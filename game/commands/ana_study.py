@@ -38,6 +38,8 @@ def _as_its_owner(ctx: click.Context, _param: click.Parameter, folder: Path) -> 
 _FOLDER = click.argument(
     "folder", metavar="DIR", type=click.Path(path_type=Path), callback=_as_its_owner
 )
+_ANY_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+"""Where a participant is at the terminal: what fails, this check included, is shown on a page."""
 _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 STATUS_TROUBLE = 2
@@ -69,7 +71,7 @@ def make_study(folder: Path, seed: int | None, blocks: int) -> None:
 
 
 @study_group.command("run", short_help="Let a participant take part here.")
-@_FOLDER
+@_ANY_FOLDER
 @click.option("--participant", required=True, metavar="ID", help="A pseudonym, such as P01.")
 @_PILOT
 def run_participant(folder: Path, participant: str, pilot: bool) -> int:
@@ -78,8 +80,9 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
         signal.signal(number, signal.SIG_IGN)
     try:
         from game.screens.study.app import run_session
-        from game.study.folder import identify, open_study
+        from game.study.folder import identify, open_study, refuse_other_accounts
 
+        refuse_other_accounts(folder, f"ana study run {folder} --participant {participant}")
         identity = identify(participant, pilot=pilot)
         return run_session(open_study(folder), identity)
     except AnaError:
@@ -306,8 +309,48 @@ def print_ssh_configuration(
         _red(f"{folder}: {one}")
 
 
+@study_group.command("serve", short_help="Let participants in with a browser.")
+@_FOLDER
+@click.option("--host", default="127.0.0.1", show_default=True,
+              help="The address to listen on; your own proxy adds TLS.")  # fmt: skip
+@click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True,
+              help="The port; 0 takes a free one.")  # fmt: skip
+@click.option("--url", help="The address that participants use, where a proxy stands before this.")
+@click.option("--sessions", type=click.IntRange(1), default=40, show_default=True,
+              help="How many may take part at once.")  # fmt: skip
+def serve_browsers(folder: Path, host: str, port: int, url: str | None, sessions: int) -> None:
+    """Let participants take part in the study DIR with a browser; Ctrl+C ends it.
+
+    Each of them comes with a link of their own (ana study invite) or with a panel's ID. Everybody
+    who is in the study when it ends can come back later and continues.
+    """
+    from game.commands.ana_study_web import serve_study
+
+    serve_study(folder, host, port, url, sessions)
+
+
+@study_group.command("invite", short_help="Print links for a browser.")
+@_FOLDER
+@click.argument("participants", metavar="ID...", nargs=-1, required=True)
+@click.option("--url", default="http://localhost:8080/", show_default=True,
+              help="The address that participants use.")  # fmt: skip
+@click.option("--panel", is_flag=True,
+              help="The IDs are a panel's: print what they are called in the study.")  # fmt: skip
+@_PILOT
+def print_invitations(
+    folder: Path, participants: tuple[str, ...], url: str, *, panel: bool, pilot: bool
+) -> None:
+    """Print each participant ID and a link that opens that participant's session.
+
+    The links are signed with a key in the study folder, so nobody can make one for another ID.
+    """
+    from game.commands.ana_study_web import print_links
+
+    print_links(folder, participants, url, pilot=pilot, panel=panel)
+
+
 @study_group.command("login", short_help="What the SSH server runs for a participant.")
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@_ANY_FOLDER
 @_PILOT
 def let_in(folder: Path, *, pilot: bool) -> int:
     """Let the person who logged in over SSH take part in the study DIR (run by the server).

@@ -16,6 +16,7 @@ from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
+from game.study.look import CellSize, Look
 from game.world.settings import MissionSettings
 
 PrimaryOutcome = Literal[
@@ -44,10 +45,14 @@ class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 
 class ScreenSize(_Section, frozen=True):
-    """The fixed size, in terminal cells, of the game view and the memorise map."""
+    """The fixed size, in terminal cells, of the game view and the memorise map, and how the mission
+    looks: `cells` are 2 x 1 (normal) or 4 x 2 (large) of the terminal's; a study made before there
+    were looks has the first."""
 
     columns: int = 120
     rows: int = 40
+    cells: CellSize = "normal"
+    look: Look = 1
 
     def __post_init__(self) -> None:
         _within("screen.columns", self.columns, 80, 400)
@@ -70,6 +75,26 @@ class Primary(_Section, frozen=True):
     correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
 
 
+class WebSettings(_Section, frozen=True):
+    """Taking part in a browser: the address to go to at the end, in which `{code}` stands for the
+    completion code (empty: none); the name under which a panel's links carry its ID (empty: no
+    such links); and whether a pseudonym made from that ID is recorded in its place."""
+
+    return_url: str = ""
+    panel_id: str = "PROLIFIC_PID"
+    hash_ids: bool = True
+
+    def __post_init__(self) -> None:
+        address = self.return_url.replace("{code}", "")
+        if address and not re.fullmatch(r"https?://[^/\s{}][^\s{}]*", address):
+            raise ValueError(
+                "web.return_url must be an address that begins with https://, in which {code} "
+                "stands for the completion code"
+            )
+        if self.panel_id and not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", self.panel_id):
+            raise ValueError("web.panel_id must be a name of letters, digits, _ and -")
+
+
 class StudySettings(_Section, frozen=True):
     """All settings of a study. Raises ValueError, naming the setting, if one is out of range."""
 
@@ -90,6 +115,7 @@ class StudySettings(_Section, frozen=True):
     )
     interruption: InterruptionRules = InterruptionRules()
     primary: Primary = Primary()
+    web: WebSettings = WebSettings()
 
     def __post_init__(self) -> None:
         if not self.name.strip():
@@ -162,7 +188,7 @@ def _suggestion(message: str) -> str:
     unknown = re.search(r"no setting `(\w+)`", message)
     if unknown is None:
         return ""
-    sections = (StudySettings, ScreenSize, InterruptionRules, Primary)
+    sections = (StudySettings, ScreenSize, InterruptionRules, Primary, WebSettings)
     names = {field for section in sections for field in section.__struct_fields__}
     names |= {field.name for field in fields(MissionSettings)}
     return did_you_mean(unknown[1], sorted(names)) or "Remove it"

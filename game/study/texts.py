@@ -16,11 +16,11 @@ from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
 LIKERT_POINTS = 5
-LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
+LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
-    "fault", "decline_title", "decline_text", "more_below", "too_long", "clock_stopped",
-    "mission_goes_on", "leave_now",
+    "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
+    "clock_stopped", "mission_goes_on", "leave_now",
 )  # fmt: skip
 """Small words that they lack."""
 
@@ -163,6 +163,7 @@ class ScreenWords(_Part, frozen=True):
     decline_text: str
     more_below: str
     too_long: str
+    paste_too_long: str
     goodbye: Page
     preflight: Page
     too_small: str
@@ -175,6 +176,27 @@ class ScreenWords(_Part, frozen=True):
     busy: Page
     trouble: Page
     fault: str
+
+
+class BrowserPage(Page, frozen=True):
+    """A page outside the program, and its button; without words for it, there is none."""
+
+    button: str = ""
+
+
+class BrowserWords(_Part, frozen=True):
+    """What someone who takes part in a browser reads around the program."""
+
+    wrong_link: BrowserPage
+    too_small: BrowserPage
+    full: BrowserPage
+    interrupted: BrowserPage
+    lost: BrowserPage
+    elsewhere: BrowserPage
+    idle: BrowserPage
+    ended: BrowserPage
+    finished: BrowserPage
+    failed: BrowserPage
 
 
 class Texts(_Part, frozen=True):
@@ -204,6 +226,7 @@ class Texts(_Part, frozen=True):
     instructors: InstructorNames
     units: Units
     words: ScreenWords
+    browser: BrowserWords
 
 
 class Slider(_Part, frozen=True):

@@ -1,8 +1,7 @@
 # The reference numbers of this folder, by R: `make reference` computes them all again and fails when
 # one has moved; `make reference WRITE=1` writes them. Run from this folder.
 
-PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "effectsize",
-              "jsonlite")
+PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "jsonlite")
 absent <- PACKAGES[!vapply(PACKAGES, requireNamespace, logical(1), quietly = TRUE)]
 if (length(absent)) {
   debian <- paste0("r-cran-", tolower(absent), collapse = " ")
@@ -87,9 +86,9 @@ anova_of <- function(wide) {
   rows <- lapply(EFFECTS, function(effect) {
     at <- table[effect, ]
     within <- grepl("adaptivity", effect)
-    eta <- F_to_eta2(at[["F value"]], at[["num Df"]], at[["den Df"]], ci = 0.9, alternative = "two.sided")
+    end <- function(below) eta_end(at[["F value"]], at[["num Df"]], at[["den Df"]], below)
     list(effect = effect, df1 = at[["num Df"]], df2 = at[["den Df"]], ss = at[["Sum Sq"]],
-         pes.lower = eta$CI_low, pes.upper = eta$CI_high,
+         pes.lower = end(0.95), pes.upper = end(0.05),
          ss_error = at[["Error SS"]], mse = at[["Error SS"]] / at[["den Df"]], F = at[["F value"]],
          p = at[["Pr(>F)"]], pes = at[["Sum Sq"]] / (at[["Sum Sq"]] + at[["Error SS"]]),
          ges = none[[effect]], ges_obs_knowledge = knowledge[[effect]],
@@ -98,14 +97,27 @@ anova_of <- function(wide) {
   list(rows = rows, fit = fit, long = long, mean_fit = mean_fit, diff_fit = diff_fit)
 }
 
+root <- function(gap, lower, upper) uniroot(gap, c(lower, upper), extendInt = "yes", tol = 1e-10)$root
+
+# The noncentrality of an observed t, or F, at which it has this probability below it.
+noncentral_t <- function(t, df, below) root(function(ncp) pt(t, df, ncp) - below, t - 6, t + 6)
+noncentral_f <- function(f, df1, df2, below) {
+  if (pf(f, df1, df2) <= below) return(0)
+  root(function(ncp) pf(f, df1, df2, max(ncp, 0)) - below, 0, f * df1 + 20)
+}
+
+eta_end <- function(f, df1, df2, below) {
+  ncp <- noncentral_f(f, df1, df2, below)
+  ncp / (ncp + df2)
+}
+
 # d is the estimate over the pooled standard deviation within cells, its interval that of the
 # noncentral t.
 with_d <- function(frame, sigma) {
-  found <- t_to_d(frame$t.ratio, frame$df, paired = TRUE, ci = 0.95)
   scale <- frame$SE / sigma
   frame$d <- frame$estimate / sigma
-  frame$d.lower <- found$CI_low * sqrt(frame$df) * scale
-  frame$d.upper <- found$CI_high * sqrt(frame$df) * scale
+  frame$d.lower <- mapply(noncentral_t, frame$t.ratio, frame$df, 0.975) * scale
+  frame$d.upper <- mapply(noncentral_t, frame$t.ratio, frame$df, 0.025) * scale
   frame
 }
 
@@ -177,7 +189,7 @@ hc3_of <- function(wide) {
 paired_of <- function(wide) {
   d <- wide$a - wide$s
   test <- t.test(d)
-  dz <- t_to_d(test$statistic[[1]], length(d) - 1, paired = TRUE, ci = 0.95)
+  dz_end <- function(below) noncentral_t(test$statistic[[1]], length(d) - 1, below) / sqrt(length(d))
   # The bound is half a standard deviation of the static round, the smallest effect of interest.
   bound <- 0.5 * sd(wide$s)
   n <- length(d); se <- sd(d) / sqrt(n)
@@ -185,8 +197,7 @@ paired_of <- function(wide) {
   high <- pt((mean(d) - bound) / se, n - 1)
   list(mean_diff = mean(d), sd_diff = sd(d), t = test$statistic[[1]], df = n - 1, p = test$p.value,
        lower.CL = test$conf.int[1], upper.CL = test$conf.int[2], dz = mean(d) / sd(d),
-       dz.lower = dz$CI_low * sqrt((length(d) - 1) / length(d)),
-       dz.upper = dz$CI_high * sqrt((length(d) - 1) / length(d)),
+       dz.lower = dz_end(0.975), dz.upper = dz_end(0.025),
        bf10_jzs_r0707 = extractBF(ttestBF(d, rscale = sqrt(2) / 2), onlybf = TRUE)[[1]],
        tost_bound = bound, tost_p = max(low, high))
 }

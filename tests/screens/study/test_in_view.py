@@ -19,6 +19,7 @@ from game.screens.study.likert import LikertScreen
 from game.screens.study.rehearsal import Make, _Showing, painted
 from game.screens.study.sheet import SheetScreen
 from game.screens.study.sliders import TYPED_S, SlidersScreen
+from game.study.look import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Asked, Sheet
 from game.study.study_settings import ScreenSize
@@ -69,7 +70,7 @@ def asked(count: int, anchors: tuple[str, ...], high: int) -> tuple[Asked, ...]:
 
 @asynccontextmanager
 async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
-    async with _Showing(make).run_test(size=(columns, rows)) as pilot:
+    async with _Showing(make, LOOK).run_test(size=(columns, rows)) as pilot:
         await pilot.pause(1.1)
         yield pilot, pilot.app.screen
 
