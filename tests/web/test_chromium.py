@@ -13,6 +13,7 @@ import pytest
 from game.cli import main
 from game.journal.records import Covered, Debriefed, Resumed
 from game.screens.study.pages import PageScreen
+from game.screens.widgets.glyphs import HEADING_ARROWS, HEADING_GLYPHS
 from game.study.folder import Identity, Study
 from game.study.texts import BrowserWords
 from game.web.hosted import Limits
@@ -86,6 +87,23 @@ def test_keys_work_without_a_click_and_after_one_elsewhere(
     tab.press("left", "right", "space")
     tab.wait_for("All keys work")
     tab.close()
+
+
+def test_signs_are_as_wide_as_letters(tab: Tab) -> None:
+    loaded = tab.evaluate("[...document.fonts].filter(it => it.status === 'loaded').length")
+    if loaded < 2:
+        pytest.skip("no font has the signs of the map")
+    signs = "".join(
+        sorted(
+            set("".join((*HEADING_GLYPHS.values(), *HEADING_ARROWS.values()))) | set("←→↑↓✓▀▄█●◖◗")
+        )
+    )
+    widths = tab.evaluate(
+        "(() => { const pen = new OffscreenCanvas(9, 9).getContext('2d');"
+        f" pen.font = '20px \"Roboto Mono\"'; return [...'W{signs}'].map("
+        "it => pen.measureText(it).width) })()"
+    )
+    assert max(widths) <= 1.02 * widths[0], dict(zip(f"W{signs}", widths, strict=True))
 
 
 @pytest.mark.parametrize("size", [(1366, 657), (1920, 1080), (1000, 900)])

@@ -5,6 +5,7 @@
 const LEAST_LETTERS = 9, MOST_LETTERS = 60; // px
 const ASK_MS = 3000, SILENT_MS = 9000, AGAIN_MS = 1000, LOST_MS = 60000;
 const PIECE = 1000; // of a long paste, in characters
+const SIGNS = "\u25e2\u2190\u2713";
 const ENDED = 4000, ELSEWHERE = 4001, FULL = 4002, IDLE = 4003;
 
 if (document.body.dataset.told) begin(JSON.parse(document.body.dataset.told));
@@ -208,7 +209,7 @@ function begin(told) {
   addEventListener("beforeunload", (event) => { if (running) event.preventDefault(); });
 
   async function open() {
-    await document.fonts.load('16px "Roboto Mono"');
+    await Promise.allSettled(["W", SIGNS].map((it) => document.fonts.load('16px "Roboto Mono"', it)));
     await new Promise((done) => {
       const script = document.createElement("script");
       script.src = "static/textual.js";
