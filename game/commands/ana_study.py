@@ -54,14 +54,32 @@ def study_group() -> None:
               help="How many blocks of 24 places the study has.")  # fmt: skip
 def make_study(folder: Path, seed: int | None, blocks: int) -> None:
     """Create the study folder DIR, with settings and texts to check before you begin."""
-    from game.study.folder import ITEMS, SETTINGS, TEXTS, new_study
+    from game.forms.reading import FORMS
+    from game.study.folder import SETTINGS, TEXTS, new_study
 
     new_study(folder, seed, blocks)
     click.echo(
-        f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
+        f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {FORMS}, then try it:\n"
         f"  ana study check {folder}\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
+
+
+@study_group.command("forms", short_help="Print ready forms to copy from.")
+@click.argument("name", required=False, metavar="[NAME]")
+def print_form(name: str | None) -> None:
+    """List the ready forms, or print one of them.
+
+    To ask it in a study: ana study forms NAME >> DIR/forms.toml
+    """
+    from game.study.ready import ready_names, ready_text, summary
+
+    if name is not None:
+        click.echo(ready_text(name), nl=False)
+        return
+    width = max(map(len, ready_names()))
+    for one in ready_names():
+        click.echo(f"{one.ljust(width)}  {summary(one)}")
 
 
 @study_group.command("run", short_help="Let a participant take part here.")
@@ -105,8 +123,16 @@ def check_study(folder: Path, pictures: Path | None) -> int:
         for page in pages
         if page.missing
     ]
+    wrong += [
+        f"page {page.name}: the question {question} has {rows} rows more than fit, so it is never "
+        "wholly in view; shorten it"
+        for page in pages
+        for question, rows in page.too_tall.items()
+    ]
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
+    for note in study.notes:
+        click.echo(f"note: {note}")
     for one in wrong:
         click.secho(one, fg="red", err=True)
     size = study.settings.screen
@@ -158,7 +184,7 @@ def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> 
 def amend_settings(folder: Path, why: str) -> None:
     """Record that something was changed after the first participant, and why.
 
-    That is study.toml, texts.toml, items.toml or a building. Until then nobody can log in.
+    That is study.toml, texts.toml, forms.toml or a building. Until then nobody can log in.
     """
     from game.study.folder import amend
 

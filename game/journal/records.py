@@ -27,7 +27,7 @@ RULES_VERSION = 3
 RELEASES = {1: "a version before 0.1.0", 2: "release 0.1.0"}
 """Which `ana` verifies journals of earlier rules."""
 
-Phase = Literal[
+ProtocolPhase = Literal[
     "session",
     "preflight",
     "consent",
@@ -35,12 +35,15 @@ Phase = Literal[
     "memorise",
     "label",
     "mission",
-    "sliders",
-    "likert",
     "preference",
     "debrief",
 ]
-"""The part of a session that a record belongs to; `session` is outside all phases."""
+"""The parts of a session that are no forms; `session` is outside all of them."""
+PROTOCOL_PHASES: tuple[ProtocolPhase, ...] = get_args(ProtocolPhase)
+
+Phase = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z][A-Za-z0-9_.]*$")]
+"""The part of a session that a record belongs to: a `ProtocolPhase` or a form, by its id in
+forms.toml."""
 
 StudyMode = Literal["live", "pilot", "simulated"]
 Mode = Literal["free_play", StudyMode]
@@ -300,6 +303,30 @@ class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer"
     version: str = ""
 
 
+class ChoicesGiven(SessionRecord, frozen=True, tag="choices_given", kw_only=True):
+    """An item that can have several answers was answered: `chosen` are their positions among
+    `anchors`, from 1. The rest as in `questionnaire_answer`."""
+
+    item: str
+    text: str
+    anchors: tuple[str, ...]
+    place: int
+    chosen: tuple[int, ...]
+    response_ms: int
+    changes: int = 0
+    version: str = ""
+
+
+class AnswerCleared(SessionRecord, frozen=True, tag="answer_cleared", kw_only=True):
+    """The answer to an item was taken back, or the item is no longer shown (`hidden`) because an
+    earlier answer was changed: it has no answer."""
+
+    item: str
+    hidden: bool = False
+    response_ms: int = 0
+    version: str = ""
+
+
 class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_only=True):
     """The preferred instructor: that of `preferred_round`. `options` are as shown."""
 
@@ -360,6 +387,8 @@ StudyRecord = (
     | QuizAnswer
     | QuizSubmitted
     | QuestionnaireAnswer
+    | ChoicesGiven
+    | AnswerCleared
     | PreferenceGiven
     | FreeText
     | Debriefed

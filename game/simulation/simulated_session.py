@@ -45,7 +45,7 @@ def play_session(study: Study, taken: SlotTaken, population: Population) -> byte
         settings=study.settings,
         copy=study.copy,
         texts=study.texts,
-        items=study.items,
+        forms=study.forms,
         buildings=study.buildings,
         practice=study.practice,
         inputs=study.inputs,

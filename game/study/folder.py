@@ -1,6 +1,6 @@
 """A study's folder: its settings, texts, buildings, ledger and sessions.
 
-DIR/study.toml, texts.toml, items.toml      edited by the lab
+DIR/study.toml, texts.toml, forms.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
 DIR/versions/                               every version of what sessions were made from
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
@@ -14,6 +14,7 @@ import pwd
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from hashlib import sha256
 from importlib import resources
 from pathlib import Path
@@ -22,9 +23,12 @@ from typing import NamedTuple
 
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
+from game.forms.form import Forms
+from game.forms.reading import FORMS, read_forms
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
+from game.study.course import Course, course
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -40,12 +44,12 @@ from game.study.study_settings import (
     StudySettings,
     read_settings,
 )
-from game.study.texts import Items, Texts, read_items, read_texts
+from game.study.texts import Texts, read_texts
 from game.world import load_building
 from game.world.building import Building
 from game.world.fitness import shortcomings
 
-SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
+SETTINGS, TEXTS, LEDGER = "study.toml", "texts.toml", "ledger.jsonl"
 VERSIONS = "versions"
 """Copies of everything that sessions were made from."""
 ROSTER = "roster.csv"
@@ -75,11 +79,23 @@ class Study:
     settings: StudySettings
     copy: StudyCopy
     texts: Texts
-    items: Items
+    forms: Forms
     buildings: tuple[Building, Building]
     practice: Building
     inputs: Mapping[str, str]
     """The SHA-256 of everything that a session is made from, by name."""
+    notes: tuple[str, ...] = ()
+    """What the experimenter should know of the files."""
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files of settings, texts and forms."""
+        return tuple(name for name in self.inputs if name.endswith(".toml"))
+
+    @cached_property
+    def course(self) -> Course:
+        """The steps of every session."""
+        return course(self.forms)
 
     @property
     def version(self) -> str:
@@ -213,7 +229,7 @@ def new_study(
     template = resources.files("game.study") / "template"
     try:
         make_folders(folder)
-        for name in (SETTINGS, TEXTS, ITEMS):
+        for name in (SETTINGS, TEXTS, FORMS):
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
@@ -238,7 +254,8 @@ def open_study(folder: Path) -> Study:
     settings, digest = read_settings(path)
     entries = Ledger(folder / LEDGER).entries()
     _same_as_created(settings, entries, path)
-    texts, items = read_texts(folder / TEXTS), read_items(folder / ITEMS)
+    texts = read_texts(folder / TEXTS)
+    forms, asked, note = read_forms(folder, texts.form_pages)
     first, second = (_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(
@@ -246,15 +263,16 @@ def open_study(folder: Path) -> Study:
         settings=settings,
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=texts,
-        items=items,
+        forms=forms,
         buildings=(first, second),
         practice=practice,
         inputs={
             SETTINGS: digest,
             TEXTS: _digest(folder / TEXTS),
-            ITEMS: _digest(folder / ITEMS),
+            asked: _digest(folder / asked),
             **{name_of(building): building.hash for building in (first, second, practice)},
         },
+        notes=(note,) if note else (),
     )
     for building in (*study.buildings, study.practice):
         _check_map(building, settings.screen)
@@ -262,7 +280,7 @@ def open_study(folder: Path) -> Study:
 
 
 def amend(folder: Path, why: str) -> tuple[str, ...]:
-    """Record that settings, texts, items or buildings were changed on purpose; returns which.
+    """Record that settings, texts, forms or buildings were changed on purpose; returns which.
 
     Raises StudyError if none has changed.
     """

@@ -77,7 +77,7 @@ class CameBack(LedgerLine, frozen=True, tag="came_back"):
 
 
 class SettingsAmended(LedgerLine, frozen=True, tag="settings_amended"):
-    """What sessions are made from, from now on: the SHA-256 of study.toml, texts.toml, items.toml
+    """What sessions are made from, from now on: the SHA-256 of study.toml, texts.toml, forms.toml
     and every building by name, and which of them `changed`."""
 
     settings_hash: str

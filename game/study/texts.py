@@ -2,31 +2,38 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.forms.reading import Pages
 from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
-LIKERT_POINTS = 5
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
     "fault", "decline_title", "decline_text", "more_below", "too_long", "clock_stopped",
-    "mission_goes_on", "leave_now",
+    "mission_goes_on", "leave_now", "mark", "space", "write", "whole_number",
 )  # fmt: skip
 """Small words that they lack."""
 
 
+EARLIER_PAGES = {
+    "mental_state": {"title": "", "body": "{instructor}"},
+    "likert": {"title": "", "body": "{instructor}"},
+    "check": {"title": "", "body": ""},
+}
+"""Pages that texts.toml had before forms had their own words, and what could be filled in."""
+
+
 class TextsError(AnaError):
-    """A file of texts or items cannot be used as it is."""
+    """The file of texts cannot be used as it is."""
 
 
 class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -151,6 +158,10 @@ class ScreenWords(_Part, frozen=True):
     clock_stopped: str
     mission_goes_on: str
     leave_now: str
+    mark: str
+    space: str
+    write: str
+    whole_number: str
     size_fine: str
     press_keys: str
     keys_fine: str
@@ -170,7 +181,6 @@ class Texts(_Part, frozen=True):
     declined: Page
     practice: Page
     lessons: Lessons
-    check: Page
     check_right: Page
     check_wrong: Page
     memorise: Page
@@ -178,78 +188,24 @@ class Texts(_Part, frozen=True):
     mission: Page
     cut_off: CutOff
     level_key: LevelKeyWords
-    mental_state: Page
-    likert: Page
     preference: Page
     reason: Page
     debrief: Page
     instructors: InstructorNames
     units: Units
     words: ScreenWords
+    check: Page | None = None
+    mental_state: Page | None = None
+    likert: Page | None = None
 
-
-class Slider(_Part, frozen=True):
-    """A question answered from 1 (`low`) to 100 (`high`)."""
-
-    id: str
-    text: str
-    low: str
-    high: str
-
-
-class Statement(_Part, frozen=True):
-    id: str
-    text: str
-
-
-class AnswerScale(_Part, frozen=True):
-    """The names of the five points, from least to most agreement."""
-
-    answers: tuple[str, ...]
-
-    def __post_init__(self) -> None:
-        if len(self.answers) != LIKERT_POINTS:
-            raise ValueError(
-                f"the scale must have {LIKERT_POINTS} answers, not {len(self.answers)}"
-            )
-
-
-class CheckQuestion(_Part, frozen=True):
-    """A question of the practice check; `right` is the position of the right answer, from 1."""
-
-    id: str
-    text: str
-    answers: tuple[str, ...]
-    right: int
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.right <= len(self.answers):
-            raise ValueError(f"right must be between 1 and {len(self.answers)}, not {self.right}")
-
-
-class Items(_Part, frozen=True):
-    """items.toml."""
-
-    version: str
-    slider: tuple[Slider, ...]
-    statement: tuple[Statement, ...]
-    scale: AnswerScale
-    check: tuple[CheckQuestion, ...]
-
-    def __post_init__(self) -> None:
-        asked: tuple[Slider | Statement | CheckQuestion, ...] = (
-            *self.slider,
-            *self.statement,
-            *self.check,
-        )
-        ids = [item.id for item in asked]
-        for identifier in ids:
-            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", identifier):
-                raise ValueError(
-                    f"an id must be letters, digits and _, and begin with a letter: '{identifier}'"
-                )
-            if ids.count(identifier) > 1:
-                raise ValueError(f"two items have the id {identifier}")
+    @property
+    def form_pages(self) -> Pages | None:
+        """What the forms in items.toml of an earlier study stood on; in new studies each form in
+        forms.toml has its own words."""
+        if self.mental_state is None or self.likert is None or self.check is None:
+            return None
+        pages = self.mental_state, self.likert, self.check
+        return Pages(*((page.title, page.body) for page in pages))
 
 
 def filled(page: Page, **facts: str) -> Page:
@@ -270,37 +226,16 @@ def followed(page: Page, more: str) -> Page:
     return Page(title=page.title, body=f"{page.body.strip()}\n\n{more}")
 
 
-_Read = TypeVar("_Read", Texts, Items)
-
-
 def read_texts(path: Path) -> Texts:
     """Raises TextsError, naming the file and the key."""
     shipped = _shipped_tree()
     words = {name: shipped["words"][name] for name in LATER_WORDS}
-    return _read(path, Texts, {name: shipped[name] for name in LATER_TEXTS}, words)
-
-
-def shipped_texts() -> Texts:
-    """The texts of a new study."""
-    return msgspec.convert(_shipped_tree(), Texts)
-
-
-def read_items(path: Path) -> Items:
-    """Raises TextsError, naming the file and the key."""
-    return _read(path, Items, {}, {})
-
-
-def _shipped_tree() -> dict[str, Any]:
-    shipped = resources.files("game.study") / "template" / "texts.toml"
-    return tomllib.loads(shipped.read_text(encoding="utf-8"))
-
-
-def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[str, str]) -> _Read:
     try:
-        tree = otherwise | tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        tree = {name: shipped[name] for name in LATER_TEXTS}
+        tree |= tomllib.loads(path.read_text(encoding="utf-8-sig"))
         if isinstance(tree.get("words"), dict):
             tree["words"] = words | tree["words"]
-        read = msgspec.convert(tree, kind)
+        read = msgspec.convert(tree, Texts)
     except OSError as error:
         raise TextsError(
             f"the file cannot be read ({error.strerror})",
@@ -311,6 +246,15 @@ def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[
         raise TextsError(
             str(error), place=str(path), hint="Compare the file with the one in a new study folder"
         ) from error
-    if kind is Texts:
-        check_placeholders(tree, _shipped_tree(), str(path))
+    check_placeholders(tree, shipped | EARLIER_PAGES, str(path))
     return read
+
+
+def shipped_texts() -> Texts:
+    """The texts of a new study."""
+    return msgspec.convert(_shipped_tree(), Texts)
+
+
+def _shipped_tree() -> dict[str, Any]:
+    shipped = resources.files("game.study") / "template" / "texts.toml"
+    return tomllib.loads(shipped.read_text(encoding="utf-8"))

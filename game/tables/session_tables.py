@@ -15,7 +15,7 @@ import msgspec
 from game.journal.history import History, PhaseSpan, Step, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
-from game.journal.records import ROUNDS, Allocated, Phase
+from game.journal.records import ROUNDS, Allocated, ProtocolPhase
 from game.tables.mission_tables import MissionTables, level_name
 from game.tables.rows import (
     ActionRow,
@@ -40,7 +40,7 @@ from game.world.reading import parse_building
 
 MENTAL_STATES = ("engagement", "confidence", "frustration", "confusion")
 LIKERT_ITEMS = ("pref1", "pref2", "pref3", "pref4")
-TIMED: tuple[Phase, ...] = ("memorise", "label", "mission")
+TIMED: tuple[ProtocolPhase, ...] = ("memorise", "label", "mission")
 MS_PER_MINUTE = 60_000
 
 
@@ -354,7 +354,7 @@ class _Session:
             )
 
     def free_texts(self) -> Iterator[FreeTextRow]:
-        for text in self.history.free_texts:
+        for text in self.history.words.values():
             if text.answer:
                 yield FreeTextRow.of(text, **self.person)
 

@@ -56,7 +56,7 @@ def test_words_that_cannot_be_seen_fail_it(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
-    edit(folder, "items.toml", 'low = "', f'low = "{endless} ')
+    edit(folder, "forms.toml", 'low = "', f'low = "{endless} ')
     assert main(["study", "check", str(folder)]) == 2
     assert "these words are cut off or hidden" in capsys.readouterr().err
 

@@ -35,8 +35,8 @@ def spoilt(folder: Path, name: str, before: str, after: str) -> Path:
         (TEXTS, "**{code}**", "", r"debrief: the page lacks \{code\}"),
         (TEXTS, "Thank you for taking part", "{code}{name}", r"there is no \{name\}"),
         (TEXTS, 'stop_yes = "stop"', 'stop_yes = "{stop}"', "write the words themselves"),
-        ("items.toml", 'id = "pref1"', 'id = ""', "an id must be letters"),
-        ("items.toml", 'id = "pref1"', 'id = "engagement"', "two items have the id engagement"),
+        ("forms.toml", 'id = "pref1"', 'id = ""', "an id must be letters"),
+        ("forms.toml", 'id = "pref1"', 'id = "engagement"', "two items have the id engagement"),
         ("study.toml", 'name = "Adaptive navigation assistance"', 'name = " "', "name must not"),
     ],
 )
@@ -49,14 +49,14 @@ def test_faulty_texts_are_refused(
     assert name in str(refused.value)
 
 
-@pytest.mark.parametrize("name", ["study.toml", TEXTS, "items.toml"])
+@pytest.mark.parametrize("name", ["study.toml", TEXTS, "forms.toml"])
 def test_files_of_other_editors_are_read(tmp_path: Path, name: str) -> None:
     study = small_study(tmp_path / "study")
     path = study.folder / name
     text = path.read_text(encoding="utf-8").replace("\n", "\r\n")
     path.write_bytes(b"\xef\xbb\xbf" + text.encode())
     again = open_study(study.folder)
-    assert (again.texts, again.items, again.settings) == (study.texts, study.items, study.settings)
+    assert (again.texts, again.forms, again.settings) == (study.texts, study.forms, study.settings)
 
 
 @pytest.mark.parametrize("number", [errno.ENOLCK, errno.EOPNOTSUPP])

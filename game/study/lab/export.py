@@ -17,11 +17,12 @@ from pathlib import Path
 import msgspec
 
 from game import __version__
+from game.forms.reading import FORMS, ITEMS
 from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
 from game.journal.records import StudyMode
 from game.journal.sink import make_folders
-from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
+from game.study.folder import LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
 from game.study.lab.anonymous import anonymised
 from game.study.lab.psychds import (
     IGNORE_FILES,
@@ -174,11 +175,16 @@ def _described(
     files = {path: text.encode() for path, text in texts.items()}
     rows: Sequence[type[TableRow]] = tuple(ROW_TYPES.values())
     files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
-    for material in (SETTINGS, TEXTS, ITEMS):
+    for material in (SETTINGS, TEXTS, _asked(folder)):
         files[f"materials/{material}"] = (folder / material).read_bytes()
     for version in sorted((folder / VERSIONS).glob("*.*")):
         files[f"materials/{VERSIONS}/{version.name}"] = version.read_bytes()
     return files
+
+
+def _asked(folder: Path) -> str:
+    """The file of the study's questions."""
+    return FORMS if (folder / FORMS).exists() else ITEMS
 
 
 def _summary(found: dict[StudyMode, Tables]) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from game.errors import AnaError
 from game.journal.folders import SESSIONS
-from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, Study
+from game.study.folder import LEDGER, TEXTS, Study
 from game.study.lab.hindrances import Hindrances
 from game.study.ledger import lock_whole
 
@@ -21,13 +21,14 @@ _TRIAL = ".check"
 def shortfalls(study: Study) -> Iterator[str]:
     """Everything that would keep sessions from being run or kept here, in words."""
     yield from Hindrances(study.folder).look(study.ledger.entries())
-    yield from _files(study.folder)
+    yield from _files(study)
     yield from _writing(study.folder)
     yield from _locale()
     yield from _half_time(study)
 
 
-def _files(folder: Path) -> Iterator[str]:
+def _files(study: Study) -> Iterator[str]:
+    folder = study.folder
     owner = folder.stat().st_uid
     for path in (folder, *sorted(folder.glob("*")), *sorted((folder / SESSIONS).glob("*/*"))):
         found = path.stat()
@@ -35,7 +36,7 @@ def _files(folder: Path) -> Iterator[str]:
             yield f"{path} belongs to another account; give it to {folder.owner()} with chown"
         if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
             yield f"{path} can be written by other accounts; take that away with chmod go-w"
-    for name in (SETTINGS, TEXTS, ITEMS, LEDGER):
+    for name in (*study.files, LEDGER):
         if not os.access(folder / name, os.R_OK):
             yield f"{folder / name} cannot be read by this account"
     if not os.access(folder / LEDGER, os.W_OK):
