@@ -9,13 +9,18 @@ from typing import Protocol
 import click
 
 from analysis.battery import analyse_source
-from analysis.sources.source import holds_live_sessions
+from analysis.sources.source import holds_live_sessions, is_study_source
+from analysis.sources.study_folder import mode_of
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 
 
-class Unblinding(Protocol):
+class StudySide(Protocol):
     """What the command is given by the game."""
+
+    def refuse_unlike_ledger(self, folder: Path, mode: StudyMode) -> None:
+        """Raise JournalError where the sessions of a study folder are not those of its ledger."""
+        ...
 
     def unblind(self, folder: Path) -> str:
         """Record in a study folder, unless the study is closed, that its allocation was looked at;
@@ -37,7 +42,7 @@ _PATH = click.Path(path_type=Path)
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
 def command(
-    game: Unblinding,
+    game: StudySide,
     source: Path,
     out: Path,
     figures: Path | None,
@@ -51,6 +56,9 @@ def command(
     planned analysis could not be made; all others are written all the same. The ledger of a live
     study that is open records that it was analysed, which unblinds.
     """
+
+    if is_study_source(source):
+        game.refuse_unlike_ledger(source, mode_of(source, mode))
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):

@@ -5,13 +5,16 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
 from game import __version__
 from game.errors import AnaError
 from game.lazy import LazyCommand, LazyGroup
+
+if TYPE_CHECKING:
+    from game.journal.records import StudyMode
 
 OBJECTS_BETWEEN_COLLECTIONS = 10_000
 """Importing makes many objects and no garbage; looking for it after every 700 of them would take a
@@ -101,6 +104,12 @@ def main(args: Sequence[str] | None = None) -> int:
 
 class _GameSide:
     """What the analysis, which knows neither studies nor simulated people, asks of the game."""
+
+    def refuse_unlike_ledger(self, folder: Path, mode: StudyMode) -> None:
+        """Raise JournalError where the sessions of a study folder are not those of its ledger."""
+        from game.study.lab.sessions import refuse_unlike_ledger
+
+        refuse_unlike_ledger(folder, mode)
 
     def unblind(self, folder: Path) -> str:
         """Record in a study folder that its allocation was looked at; what to tell of that."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from errno import EACCES, EDQUOT, EFBIG, ENOSPC, EPERM
 from pathlib import Path
 
 STATUS_DEFECT = 1
@@ -41,6 +42,15 @@ def choose_from(name: str, names: Iterable[str], also: str = "") -> str:
     """The hint for a `name` that is none of `names`: the nearest, then all, then `also`."""
     names = tuple(names)
     return f"{did_you_mean(name, names)} Choose from {', '.join(names)}{also}.".lstrip()
+
+
+def disk_hint(error: OSError) -> str:
+    """What to do about a file of a study that the system refuses; empty where that is unknown."""
+    if error.errno in (ENOSPC, EDQUOT, EFBIG):
+        return "Free some space on this disk"
+    if error.errno in (EACCES, EPERM):
+        return "Give it to the account that owns the study: sudo chown -R ACCOUNT FOLDER"
+    return ""
 
 
 def where(error: BaseException) -> str:

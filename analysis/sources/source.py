@@ -39,8 +39,12 @@ def load_study(
 
 def holds_live_sessions(source: Path, mode: StudyMode | None = None) -> bool:
     """Whether live sessions of a study folder are what is read of a source that can be read."""
-    study_folder = not is_tables_folder(source) and is_study_folder(source)
-    return study_folder and mode_of(source, mode) == "live"
+    return is_study_source(source) and mode_of(source, mode) == "live"
+
+
+def is_study_source(source: Path) -> bool:
+    """Whether the journals of a study folder are what is read of a source."""
+    return not is_tables_folder(source) and is_study_folder(source)
 
 
 def load_recorded(

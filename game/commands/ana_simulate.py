@@ -12,6 +12,7 @@ from game.coach.spec import DEFAULT_PRESET
 from game.rescuers.person import POPULATIONS, world
 from game.simulation.simulated_study import Workers, simulate
 from game.simulation.workers import cores, here, on_cluster, on_cores
+from game.study.folder import refuse_other_accounts
 from game.study.study_settings import ADAPTIVE
 
 
@@ -61,6 +62,7 @@ def simulate_command(
     """
     if population and people:
         raise click.UsageError("give either --population or --world")
+    refuse_other_accounts(folder, f"ana simulate {folder} ...")
     workers = _workers(jobs, scheduler)
     who = world(people or population or "default")
     progress = simulate(folder, participants, seed, who, workers, preset, coach)

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
 
 
+def _red(line: str) -> None:
+    click.secho(line, fg="red", err=True)
+
+
 def _as_its_owner(ctx: click.Context, _param: click.Parameter, folder: Path) -> Path:
     """Refuse another account than the folder's owner."""
     from game.study.folder import refuse_other_accounts
@@ -111,30 +115,18 @@ def check_study(folder: Path, pictures: Path | None) -> int:
 
     Exit status 2 where something would go wrong.
     """
-    from game.screens.study.rehearsal import rehearsed, write_pictures
+    from game.screens.study.pictures import write_pictures
+    from game.screens.study.rehearsal import found_wrong
     from game.study.folder import open_study
-    from game.study.lab.readiness import shortfalls
 
     study = open_study(folder)
-    wrong = list(shortfalls(study))
-    pages = rehearsed(study)
-    wrong += [
-        f"page {page.name}: these words are cut off or hidden: {' '.join(page.missing)}"
-        for page in pages
-        if page.missing
-    ]
-    wrong += [
-        f"page {page.name}: the question {question} has {rows} rows more than fit, so it is never "
-        "wholly in view; shorten it"
-        for page in pages
-        for question, rows in page.too_tall.items()
-    ]
+    wrong, pages = found_wrong(study)
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
     for note in study.notes:
         click.echo(f"note: {note}")
     for one in wrong:
-        click.secho(one, fg="red", err=True)
+        _red(one)
     size = study.settings.screen
     if not wrong:
         click.echo(f"{folder}: {len(pages)} pages at {size.columns} x {size.rows}; all is well")
@@ -310,26 +302,32 @@ def write_dataset(
 @click.option("--account", help="The participants' account.  [default: the owner of DIR]")
 @click.option("--port", type=click.IntRange(1, 65535), help="The port of a local test server.")
 @click.option("--keys", type=click.Path(path_type=Path), help="The folder of that server's keys.")
+@click.option("--check/--no-check", "check", default=True, show_default=True,
+              help="Also tell what `ana study check` finds wrong.")  # fmt: skip
 def print_ssh_configuration(
-    folder: Path, account: str | None, port: int | None, keys: Path | None
+    folder: Path, account: str | None, port: int | None, keys: Path | None, *, check: bool
 ) -> None:
     """Print the OpenSSH configuration that lets participants into the study DIR.
 
-    With --port and --keys: the configuration of a test server on this machine alone.
+    With --port and --keys: the configuration of a test server on this machine alone. What
+    `ana study check` finds wrong is told on the error stream.
     """
+    from game.screens.study.rehearsal import found_wrong
     from game.study.folder import open_study
     from game.study.lab.sshd import LoopbackServer, configuration, program
 
     if (port is None) is not (keys is None):
         raise click.UsageError("Give --port and --keys together.")
-    open_study(folder)
+    study = open_study(folder)
     loopback = None if port is None or keys is None else LoopbackServer(port, keys)
     user = account or (folder.owner() if loopback is None else getpass.getuser())
     click.echo(configuration(folder, user, program(), loopback), nl=False)
+    for one in found_wrong(study)[0] if check else ():
+        _red(f"{folder}: {one}")
 
 
 @study_group.command("login", short_help="What the SSH server runs for a participant.")
-@_FOLDER
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @_PILOT
 def let_in(folder: Path, *, pilot: bool) -> int:
     """Let the person who logged in over SSH take part in the study DIR (run by the server).
@@ -346,11 +344,12 @@ def let_in(folder: Path, *, pilot: bool) -> int:
         signal.signal(number, signal.SIG_IGN)
     texts = None
     try:
-        from game.study.folder import identify, open_study
+        from game.study.folder import identify, open_study, refuse_other_accounts
         from game.study.lab.sshd import who_logs_in
         from game.study.texts import shipped_texts
 
         texts = shipped_texts()
+        refuse_other_accounts(folder, f"ana study login {folder}")
         study = open_study(folder)
         texts = study.texts
         participant = who_logs_in(os.environ, partial(_ask_for_id, texts.login))

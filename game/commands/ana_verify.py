@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from game.journal.folders import all_journals
+from game.journal.records import STUDY_MODES
 from game.session.verification import verify_files
 
 
@@ -20,7 +21,14 @@ def verify_command(journals: tuple[Path, ...]) -> int:
     Exit status 0: all match; 1: one does not, and the first difference is named; 2: a file is not
     a journal.
     """
-    paths = [
-        path for given in journals for path in (all_journals(given) if given.is_dir() else (given,))
-    ]
+    from game.study.lab.sessions import refuse_unlike_ledger
+
+    paths: list[Path] = []
+    for given in journals:
+        if given.is_dir():
+            paths += all_journals(given)
+            for mode in STUDY_MODES:
+                refuse_unlike_ledger(given, mode)
+        else:
+            paths.append(given)
     return verify_files(paths, click.echo)

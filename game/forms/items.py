@@ -11,6 +11,8 @@ from typing import Literal
 
 import msgspec
 
+from game.forms.checks import not_empty, told_apart
+
 Role = Literal["none", "mental_state", "preference", "attention", "demographic"]
 """What an item is for, which decides what the analysis does with it."""
 
@@ -81,6 +83,9 @@ class HeadingItem(Part, frozen=True, kw_only=True, tag_field="kind", tag="headin
     text: str
     shown_when: Condition | None = None
 
+    def __post_init__(self) -> None:
+        not_empty("the text of a heading", self.text)
+
 
 class QuestionItem(Part, frozen=True, kw_only=True, tag_field="kind"):
     """What all questions have. `right` is the right answer: a value, several of which one is
@@ -99,6 +104,7 @@ class QuestionItem(Part, frozen=True, kw_only=True, tag_field="kind"):
                 f"an id must be letters, digits and _, begin with a letter and have at most 40 "
                 f"characters: '{self.id}'"
             )
+        not_empty(f"the text of {self.id}", self.text)
         if self.role == "attention" and self.right is None:
             raise ValueError(f"{self.id} has the role attention, so it needs its right answer")
         for value in self.rights:
@@ -165,6 +171,7 @@ class SliderItem(_Reversible, frozen=True, kw_only=True, tag="slider"):
     def __post_init__(self) -> None:
         if not self.from_ < self.to:
             raise ValueError(f"from must be below to: {self.id}")
+        told_apart("low and high", self.low, self.high)
         super().__post_init__()
 
     @property
@@ -276,6 +283,4 @@ def _check_answers(identifier: str, answers: tuple[str, ...]) -> None:
         raise ValueError(
             f"{identifier} has {len(answers)} answers; give it from 2 to {MOST_ANSWERS}"
         )
-    for answer in answers:
-        if answers.count(answer) > 1:
-            raise ValueError(f"{identifier} has the answer '{answer}' twice")
+    told_apart("the answers", *answers)

@@ -24,6 +24,7 @@ from game.forms.items import (
     TextItem,
     Weights,
 )
+from game.forms.placeholders import check_text
 
 FORMS, ITEMS = "forms.toml", "items.toml"
 FILLED = "instructor"
@@ -37,7 +38,6 @@ _KINDS = {
     "text": TextItem,
     "heading": HeadingItem,
 }
-_PLACEHOLDER = re.compile(r"\{(\w+)\}")
 _PATH = re.compile(r"\[(\d+)\]|\.(\w+)")
 
 
@@ -189,16 +189,12 @@ def _hint(message: str, key: str) -> str:
 
 def _check_placeholders(forms: Forms, place: str) -> None:
     for form in forms.forms:
-        after = set(form.places) == {EACH}
-        words = [form.title, form.body, *(it.text for it in form.items)]
-        for name in (name for text in words for name in _PLACEHOLDER.findall(text)):
-            if not after or name != FILLED:
-                can = f"{{{FILLED}}}" if after else ""
-                raise FormsError(
-                    f"there is no {{{name}}} to be filled in",
-                    place=f"{place}, form {form.id}",
-                    hint=f"Did you mean {can}?" if can else "Write the words themselves",
-                )
+        known = {FILLED} if set(form.places) == {EACH} else set()
+        for text in (form.title, form.body):
+            check_text(text, known, f"{place}, form {form.id}")
+        for item in form.items:
+            name = "a heading" if isinstance(item, HeadingItem) else f"item {item.id}"
+            check_text(item.text, set(), f"{place}, form {form.id}, {name}")
 
 
 # --- items.toml -----------------------------------------------------------------------------------

@@ -10,43 +10,60 @@ import tomllib
 from collections.abc import Collection
 from pathlib import Path
 
+from game.errors import disk_hint
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript, read_file, read_journal
 from game.journal.records import STUDY_MODES, Mode, SessionStarted
 
 JOURNAL = "journal.jsonl"
 SESSIONS = "sessions"
-_AS_OWNER = "Run the command as the account that owns the study"
 
 
-def homes(study: Path, mode: Mode) -> tuple[Path, ...]:
-    """The folders of all sessions of a mode, ordered by participant.
+def folders_of(study: Path, mode: Mode) -> tuple[Path, ...]:
+    """The folders of all sessions of a mode, ordered by participant; nobody looks into them.
 
-    Raises JournalError, naming the folder, where one cannot be read.
+    Raises JournalError where the mode's own folder cannot be read.
     """
     folder = study / SESSIONS / mode
     try:
-        found = sorted(path for path in folder.iterdir() if path.is_dir())
+        return tuple(sorted(path for path in folder.iterdir() if path.is_dir()))
     except (FileNotFoundError, NotADirectoryError):
         return ()
     except OSError as error:
         raise _unreadable(folder, error) from error
+
+
+def homes(study: Path, mode: Mode, without: Collection[str] = ()) -> tuple[Path, ...]:
+    """The folders of all sessions of a mode, ordered by participant, but for those `without`.
+
+    Raises JournalError, naming the folder, where one cannot be read.
+    """
+    found = tuple(home for home in folders_of(study, mode) if home.name not in without)
     for home in found:
-        try:
-            next(home.iterdir(), None)
-            (home / JOURNAL).is_file()
-        except OSError as error:
-            raise _unreadable(home, error) from error
-    return tuple(found)
+        has_journal(home)
+    return found
 
 
-def journals(study: Path, mode: Mode) -> tuple[Path, ...]:
-    """The journals of all sessions of a mode, ordered by participant.
+def has_journal(home: Path) -> bool:
+    """Whether there is a journal in a session's folder. Raises JournalError, naming the folder,
+    where it cannot be read."""
+    try:
+        next(home.iterdir(), None)
+        return (home / JOURNAL).is_file()
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        raise _unreadable(home, error) from error
+
+
+def journals(study: Path, mode: Mode, without: Collection[str] = ()) -> tuple[Path, ...]:
+    """The journals of all sessions of a mode, ordered by participant, but for those in the folders
+    `without`.
 
     A file without one complete line is left out: its session never began. Raises JournalError,
     naming the folder or file, for what cannot be read.
     """
-    found = (home / JOURNAL for home in homes(study, mode))
+    found = (home / JOURNAL for home in homes(study, mode, without))
     return tuple(path for path in found if path.is_file() and b"\n" in read_file(path))
 
 
@@ -56,13 +73,12 @@ def transcripts(study: Path, mode: Mode, without: Collection[str] = ()) -> tuple
     Raises JournalError, naming the file, for one that cannot be read or does not belong there.
     """
     found = []
-    for path in journals(study, mode):
-        if path.parent.name not in without:
-            transcript = read_journal(path)
-            wrong = misplaced(transcript.started, study, mode, path.parent.name)
-            if wrong:
-                raise JournalError(wrong, place=str(path), hint=PUT_BACK)
-            found.append(transcript)
+    for path in journals(study, mode, without):
+        transcript = read_journal(path)
+        wrong = misplaced(transcript.started, study, mode, path.parent.name)
+        if wrong:
+            raise JournalError(wrong, place=str(path), hint=PUT_BACK)
+        found.append(transcript)
     return tuple(found)
 
 
@@ -119,5 +135,5 @@ def _seed(settings: str) -> int | None:
 
 def _unreadable(path: Path, error: OSError) -> JournalError:
     return JournalError(
-        f"the folder cannot be read ({error.strerror})", place=str(path), hint=_AS_OWNER
+        f"the folder cannot be read ({error.strerror})", place=str(path), hint=disk_hint(error)
     )

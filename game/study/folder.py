@@ -57,6 +57,10 @@ ROSTER = "roster.csv"
 
 _BUILDINGS = {"first": "foundry", "second": "harbour", "practice": "practice"}
 _PSEUDONYM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,31}")
+_PSEUDONYMS = (
+    "Use a pseudonym of 1 to 32 letters, digits, - and _ that begins with a letter or digit, such "
+    "as P01; not a name or an address"
+)
 _MOST_SEED = 2**31
 
 
@@ -116,7 +120,7 @@ class Study:
         buildings = {name_of(it): it.text.encode() for it in (*self.buildings, self.practice)}
         try:
             for name, digest in self.inputs.items():
-                path = self.folder / VERSIONS / f"{Path(name).stem}-{digest[:12]}{_ending(name)}"
+                path = kept_copy(self.folder, name, digest)
                 if not path.exists():
                     make_folders(path.parent)
                     data = buildings.get(name) or (self.folder / name).read_bytes()
@@ -145,8 +149,9 @@ class Study:
 def roster_of(folder: Path) -> tuple[str, ...] | None:
     """The IDs in roster.csv, in its order; None where there is none.
 
-    The IDs stand in the first column, or in the one headed `id` or `participant`. Raises StudyError
-    for a file that cannot be read, and for an ID that is not one or stands there twice.
+    The IDs stand in the first column, or in the one headed `id` or `participant`; commas,
+    semicolons or tabs part the columns. Raises StudyError for a file that cannot be read, and for
+    an ID that is not one or stands there twice.
     """
     path = folder / ROSTER
     try:
@@ -154,16 +159,26 @@ def roster_of(folder: Path) -> tuple[str, ...] | None:
     except FileNotFoundError:
         return None
     except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"the roster cannot be read ({error})", place=str(path)) from error
-    rows = [row for row in csv.reader(text.splitlines()) if any(it.strip() for it in row)]
-    heads = [it.strip().casefold() for it in rows[0]] if rows else []
+        raise StudyError(
+            f"the roster cannot be read ({error})",
+            place=str(path),
+            hint="Save it as CSV in UTF-8, and let the study's account read it",
+        ) from error
+    lines = text.splitlines()
+    apart = next((mark for mark in ";\t" if lines and mark in lines[0]), ",")
+    reader = csv.reader(lines, delimiter=apart)
+    rows = [(reader.line_num, row) for row in reader if any(it.strip() for it in row)]
+    heads = [it.strip().casefold() for it in rows[0][1]] if rows else []
     column = next((heads.index(name) for name in ("id", "participant") if name in heads), None)
     found: list[str] = []
-    for row in rows if column is None else rows[1:]:
+    for line, row in rows if column is None else rows[1:]:
         name = row[column or 0].strip() if len(row) > (column or 0) else ""
+        place = f"{path}, line {line}"
         if name in found:
-            raise StudyError(f"{name} stands there twice", place=str(path), hint="Remove one")
-        found.append(identify(name).participant)
+            raise StudyError(f"{name} stands there twice", place=place, hint="Remove one")
+        if not is_pseudonym(name):
+            raise StudyError(f"'{name}' is not a participant ID", place=place, hint=_PSEUDONYMS)
+        found.append(name)
     return tuple(found)
 
 
@@ -191,7 +206,7 @@ def refuse_other_accounts(folder: Path, command: str) -> None:
     try:
         name = pwd.getpwuid(owner).pw_name
     except KeyError:
-        name = str(owner)
+        name = f"'#{owner}'"
     raise StudyError(
         f"this study belongs to the account {name}",
         place=str(folder),
@@ -199,14 +214,15 @@ def refuse_other_accounts(folder: Path, command: str) -> None:
     )
 
 
+def is_pseudonym(name: str) -> bool:
+    """Whether something can be a participant's ID."""
+    return _PSEUDONYM.fullmatch(name) is not None
+
+
 def identify(participant: str, *, pilot: bool = False) -> Identity:
     """The identity for a participant's ID. Raises StudyError if it is not a pseudonym."""
-    if _PSEUDONYM.fullmatch(participant) is None:
-        raise StudyError(
-            f"'{participant}' is not a participant ID",
-            hint="Use a pseudonym of 1 to 32 letters, digits, - and _ that begins with a letter or "
-            "digit, such as P01; not a name or an address",
-        )
+    if not is_pseudonym(participant):
+        raise StudyError(f"'{participant}' is not a participant ID", hint=_PSEUDONYMS)
     return Identity("pilot" if pilot else "live", participant)
 
 
@@ -300,8 +316,9 @@ def name_of(building: Building) -> str:
     return f"building {building.name}"
 
 
-def _ending(name: str) -> str:
-    return Path(name).suffix or ".txt"
+def kept_copy(folder: Path, name: str, digest: str) -> Path:
+    """Where the copy of an input with this SHA-256 lies in a study's folder, once it was kept."""
+    return folder / VERSIONS / f"{Path(name).stem}-{digest[:12]}{Path(name).suffix or '.txt'}"
 
 
 def _digest(path: Path) -> str:

@@ -19,7 +19,7 @@ from typing import Literal, TypeVar
 import msgspec
 from msgspec.structs import replace
 
-from game.errors import AnaError
+from game.errors import AnaError, disk_hint
 from game.journal.records import StudyMode
 from game.study.design import BLOCK, DesignCell, design_cell
 
@@ -134,7 +134,9 @@ class Ledger:
             data = self.path.read_bytes()
         except OSError as error:
             raise LedgerError(
-                f"the ledger cannot be read ({error.strerror})", place=str(self.path)
+                f"the ledger cannot be read ({error.strerror})",
+                place=str(self.path),
+                hint=disk_hint(error),
             ) from error
         return tuple(self._decoded(data))
 
@@ -280,7 +282,7 @@ class Ledger:
             raise LedgerError(
                 f"the ledger cannot be written ({error.strerror})",
                 place=str(self.path),
-                hint="Allow this account to write there",
+                hint=disk_hint(error) or "Allow this account to write there",
             ) from error
         try:
             lock_whole(descriptor, self.path)

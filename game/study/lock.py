@@ -13,6 +13,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+from game.errors import disk_hint
 from game.journal.sink import make_folders
 from game.study.folder import StudyError
 from game.study.ledger import lock_whole
@@ -49,7 +50,9 @@ class SessionLock:
             self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o600)
         except OSError as error:
             raise StudyError(
-                f"the session cannot be opened ({error.strerror})", place=str(home)
+                f"the session cannot be opened ({error.strerror})",
+                place=str(home),
+                hint=disk_hint(error),
             ) from error
         if not _locks(self._descriptor, self.path, GLANCE_S):
             pid = _holder(self._descriptor)
@@ -63,7 +66,7 @@ class SessionLock:
             raise StudyError(
                 f"the session cannot be opened ({error.strerror})",
                 place=str(home),
-                hint="Free some space on this disk",
+                hint=disk_hint(error),
             ) from error
 
     def release(self) -> None:

@@ -83,6 +83,7 @@ class StudySettings(_Section, frozen=True):
     memorise_seconds: tuple[int, int] = (60, 180)
     label_seconds: int = 240
     refill_dropouts: bool = False
+    least_free_mb: int = 1_000
     screen: ScreenSize = ScreenSize()
     mission: MissionSettings = msgspec.field(
         default_factory=lambda: MissionSettings(show_score=False, allow_pause=False)
@@ -98,6 +99,7 @@ class StudySettings(_Section, frozen=True):
         _within("memorise_seconds", short, 1, 3_600)
         _within("memorise_seconds", long, short, 3_600)
         _within("label_seconds", self.label_seconds, 1, 3_600)
+        _within("least_free_mb", self.least_free_mb, 0, 1_000_000)
         if self.preset not in PRESETS:
             raise ValueError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset}")
         if SEPARATOR not in self.coach and self.coach not in _COACHES:

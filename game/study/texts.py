@@ -11,8 +11,9 @@ import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.forms.checks import told_apart
+from game.forms.placeholders import check_placeholders
 from game.forms.reading import Pages
-from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
@@ -51,12 +52,18 @@ class Consent(Page, frozen=True):
     agree: str
     decline: str
 
+    def __post_init__(self) -> None:
+        told_apart("the answers", self.agree, self.decline)
+
 
 class InstructorNames(_Part, frozen=True):
     """Neutral names for the instructors of the first and the second round."""
 
     first: str
     second: str
+
+    def __post_init__(self) -> None:
+        told_apart("the names of the instructors", self.first, self.second)
 
     def of(self, round_: int) -> str:
         """The instructor of round 1 or 2."""

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from game.errors import AnaError
 from game.forms.form import Forms, shown
 from game.forms.items import ChoiceItem, Condition, HeadingItem, ScaleItem, SliderItem
 from game.forms.reading import FormsError, forms_in, read_forms
@@ -71,9 +72,13 @@ def test_a_form_is_typed_and_its_scales_have_its_answers() -> None:
         ("is = 2", "is = 3", "its answers go from 1 to 2"),
         ('item = "well"', 'item = "warm"', "no earlier item has this id"),
         (", is = 2", "", "give is, at_least or at_most"),
-        ('["no", "yes"]', '["no", "no"]', "the answer 'no' twice"),
+        ('["no", "yes"]', '["no", "no"]', "the answers must differ"),
         ('answers = ["no", "yes"]', "", "well has 0 answers"),
-        ("Are you well?", "Are you well, {instructor}?", r"form mood: there is no \{instructor\}"),
+        (
+            "Are you well?",
+            "Are you well, {instructor}?",
+            r"mood, item well: there is no \{inst",
+        ),
         ("reverse = true", "reverse = true\nright = 101", "right must be between 1 and 100"),
         ("reverse = true", 'role = "attention"', "needs its right answer"),
         ("reverse = true", "from = 100", "from must be below to"),
@@ -82,7 +87,7 @@ def test_a_form_is_typed_and_its_scales_have_its_answers() -> None:
 )
 def test_what_is_wrong_is_named_with_its_place(was: str, becomes: str, told: str) -> None:
     assert was in FORM
-    with pytest.raises(FormsError, match=told) as refused:
+    with pytest.raises(AnaError, match=told) as refused:
         read(FORM.replace(was, becomes, 1))
     assert "forms.toml" in str(refused.value)
 

@@ -35,7 +35,7 @@ class Server:
             subprocess.run(["ssh-keygen", *key], check=True)
         lines = [f"{said} {(folder / f'{name}.pub').read_text()}" for name, said in options.items()]
         (folder / "authorized_keys").write_text("".join(lines))
-        asked = (str(study), "--port", str(self.port), "--keys", str(folder))
+        asked = (str(study), "--port", str(self.port), "--keys", str(folder), "--no-check")
         printed = subprocess.run(
             [ANA, "study", "sshd", *asked], check=True, capture_output=True, text=True
         )

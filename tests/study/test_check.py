@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from game.cli import main
 from game.screens.study.rehearsal import Rehearsed, rehearsed
@@ -49,6 +50,11 @@ def test_a_new_study_is_well_and_pictured(
     assert len(pictures) >= 36
     assert all(picture.name in index for picture in pictures)
     assert "Map of" in index
+    assert not [it for it in (*pictures, out / "index.html") if 'url("' in it.read_text("utf-8")]
+    for picture in pictures:
+        with Image.open(picture.with_suffix(".png")) as drawn:
+            assert drawn.width > 1_000
+            assert len(drawn.getcolors(1 << 24) or ()) > 2
     assert not (folder / "sessions").exists()
 
 
@@ -57,6 +63,10 @@ def test_words_that_cannot_be_seen_fail_it(
 ) -> None:
     endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
     edit(folder, "forms.toml", 'low = "', f'low = "{endless} ')
+    assert main(["study", "sshd", str(folder)]) == 0
+    told = capsys.readouterr()
+    assert "ForceCommand" in told.out
+    assert "these words are cut off or hidden" in told.err
     assert main(["study", "check", str(folder)]) == 2
     assert "these words are cut off or hidden" in capsys.readouterr().err
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,8 +17,9 @@ from game.cli import main
 from game.errors import AnaError
 from game.journal.folders import JOURNAL, all_journals, transcripts
 from game.journal.reader import read_journal
-from game.study.folder import Identity, Study, open_study
+from game.study.folder import Identity, Study, open_study, roster_of
 from game.study.lab.export import export_study
+from game.study.lab.readiness import shortfalls
 from game.study.lab.study_status import StatusReader
 from tests.study.people import small_study, take_part
 
@@ -51,6 +53,21 @@ def foreign(study: Study) -> str:
     journal.write_bytes(journal.read_bytes().replace(b"seed = 7", b"seed = 8"))
     assert path.is_file()
     return "of another study: its seed is 8, here it is 7"
+
+
+def gone(study: Study) -> str:
+    shutil.rmtree(study.home(P01))
+    return r"P01 \(live\) has place 0, but no session"
+
+
+def emptied(study: Study) -> str:
+    (study.home(P01) / JOURNAL).write_bytes(b"")
+    return r"P01 \(live\) has place 0, but no session"
+
+
+def moved_away(study: Study) -> str:
+    study.home(P01).rename(study.folder / "P01")
+    return r"P01 \(live\) has place 0, but no session"
 
 
 def of_another_mode(study: Study) -> str:
@@ -92,6 +109,35 @@ def test_a_place_that_the_ledger_does_not_know_is_refused(study: Study, tmp_path
     study.ledger.path.write_text("".join(kept))
     with pytest.raises(AnaError, match="the ledger gave its participant none"):
         export_study(study.folder, tmp_path / "out")
+
+
+@pytest.mark.parametrize("spoil", [gone, emptied, moved_away])
+def test_a_place_whose_session_is_gone_is_missed_by_everybody(
+    study: Study, spoil: Callable[[Study], str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    named = spoil(study)
+    with pytest.raises(AnaError, match=named):
+        export_study(study.folder, tmp_path / "out")
+    for command in (["analyse", "--json", str(tmp_path / "out.json")], ["verify"]):
+        assert main([command[0], str(study.folder), *command[1:]]) == 2
+        assert re.search(named, capsys.readouterr().err)
+    assert not (tmp_path / "out.json").exists()
+    assert main(["study", "status", str(study.folder)]) == 1
+    assert re.search(named, capsys.readouterr().out)
+    out = str(tmp_path / "without")
+    assert main(["study", "export", str(study.folder), out, "--without", "P01"]) == 0
+    assert "Left out on purpose: P01" in (tmp_path / "without/README.md").read_text()
+
+
+def test_what_is_left_of_a_withdrawal_that_was_cut_off_is_neither_analysed_nor_verified(
+    study: Study, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study.ledger.end_session("P01", "live", "withdrawn")
+    for command in (["analyse", "--json", str(tmp_path / "out.json")], ["verify"]):
+        assert main([command[0], str(study.folder), *command[1:]]) == 2
+        assert "P01 (live) has withdrawn" in capsys.readouterr().err
+    assert main(["study", "withdraw", str(study.folder), "P01", "--yes"]) == 0
+    assert main(["verify", str(study.folder)]) == 0
 
 
 def test_a_bad_session_can_be_left_out_and_the_dataset_says_so(
@@ -168,9 +214,6 @@ def test_only_whoever_is_on_the_roster_is_let_in(study: Study) -> None:
         take_part(study, Identity("live", "P04"))
     take_part(study, Identity("pilot", "T01"))
     assert StatusReader(study.folder).look().not_come == ("P03",)
-    (study.folder / "roster.csv").write_text("P03\nP03\n")
-    with pytest.raises(AnaError, match="P03 stands there twice"):
-        take_part(study, Identity("live", "P03"))
 
 
 def test_another_account_is_refused_with_the_line_to_type(
@@ -181,3 +224,52 @@ def test_another_account_is_refused_with_the_line_to_type(
     for command in ("status", "export"):
         assert main(["study", command, str(study.folder), "out"][: 3 + (command == "export")]) == 2
         assert f"sudo -u {owner} ana study {command} {study.folder}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("roster", "told"),
+    [
+        (b"P03\nP03\n", "roster.csv, line 2: P03 stands there twice"),
+        (b"id,group\nP03,a\n\nP 04,b\n", "roster.csv, line 4: 'P 04' is not a participant ID"),
+        ("id\nM\u00fcller\n".encode("latin-1"), "the roster cannot be read"),
+        (b"", "has no ID in it"),
+        (b"participant;group\n", "has no ID in it"),
+    ],
+)
+def test_a_roster_that_cannot_be_used_hides_nobody_and_is_told(
+    study: Study, roster: bytes, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (study.folder / "roster.csv").write_bytes(roster)
+    assert main(["study", "status", str(study.folder)]) == 1
+    shown = capsys.readouterr().out
+    assert told in shown
+    assert "finished 2" in shown
+    assert any(told in it for it in shortfalls(open_study(study.folder)))
+
+
+@pytest.mark.parametrize("mark", [",", ";", "\t"])
+def test_a_roster_is_read_whatever_parts_its_columns(study: Study, mark: str) -> None:
+    lines = [("name", "participant"), ("x", "P03"), ("y", "P04")]
+    (study.folder / "roster.csv").write_text("\n".join(mark.join(line) for line in lines))
+    assert roster_of(study.folder) == ("P03", "P04")
+
+
+def test_settings_that_cannot_be_used_hide_nobody(
+    study: Study, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (study.folder / "study.toml").write_text("label_seconds = 6 6")
+    assert main(["study", "status", str(study.folder)]) == 1
+    shown = capsys.readouterr().out
+    assert "nobody can log in" in shown
+    assert "study.toml" in shown
+    assert "finished 2" in shown
+
+
+def test_a_damaged_journal_can_be_withdrawn(
+    study: Study, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (study.home(P01) / JOURNAL).write_bytes(b"no journal\n")
+    assert main(["study", "withdraw", str(study.folder), "P01", "--yes"]) == 0
+    assert not study.home(P01).exists()
+    assert main(["study", "status", str(study.folder)]) == 0
+    assert "finished 1, declined 0, withdrawn 1" in capsys.readouterr().out

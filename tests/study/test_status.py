@@ -158,13 +158,6 @@ def test_problems_with_a_journal_are_reported(study: Study) -> None:
     assert now["P02"].problems == ("the journal ends in an unfinished line (8 bytes, ignored)",)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_an_unreadable_journal_is_reported(study: Study) -> None:
-    take_part(study, P01)
-    (study.home(P01) / JOURNAL).chmod(0)
-    assert "cannot be read" in StatusReader(study.folder).look().problems[0]
-
-
 def test_looking_changes_nothing(study: Study) -> None:
     take_part(study, P01)
     cut_off(study, P02, at="label")

@@ -6,7 +6,8 @@ returns the last Observation when it is done. `docs/instructions.md` has the sam
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping
+from collections.abc import Callable, Generator, Mapping
+from functools import partial
 from typing import Literal
 
 from game.rescuers.literal import looking
@@ -38,6 +39,7 @@ from game.world.geometry import Cell, Heading
 from game.world.observation import Observation
 from game.world.plan import Tile
 from game.world.settings import Controls
+from game.world.terrain import Terrain
 
 Doing = Generator[Action, Observation, Observation]
 
@@ -219,7 +221,7 @@ class Walker:
         label = self._places.get(room) or self._places.get(room.removeprefix("the "))
         if label is None:
             raise UnreadableInstruction(f"I do not know where {room} is")
-        self._room = looking.floor_around(now.plan, label)
+        self._room = room_around(now.terrain, label)
         to_go = cost_to_go(now.plan, label)
         index = now.plan.index
         while now.position not in self._room:
@@ -231,18 +233,29 @@ class Walker:
     def _find_and_treat(self, now: Observation, severity: Severity) -> Doing:
         """Look through the room for a waiting victim, the nearest unseen cell first, and treat
         the nearest that has been seen. Raises `Stuck` where the whole room shows none."""
-        room = self._room or looking.floor_around(now.plan, now.position)
-        floor = now.plan.mask(room)
+        room = self._room or room_around(now.terrain, now.position)
+        index = now.plan.index
         while True:
             known = room.intersection(looking.remembered(now, severity))
             if known:
                 ways = looking.ways_to_nearest(now.position, known.__contains__, room.__contains__)
                 return (yield from self._treat(now, ways[0]))
-            unseen = frozenset(now.plan.cells(floor & ~now.explored))
-            ways = looking.ways_to_nearest(now.position, unseen.__contains__, room.__contains__)
+            unseen = partial(_is_unseen, room, index, now.explored)
+            ways = looking.ways_to_nearest(now.position, unseen, room.__contains__)
             if not ways:
                 raise Stuck
             now = yield from self._step_to(now, ways[0][0])
+
+
+def room_around(terrain: Terrain, cell: Cell) -> frozenset[Cell]:
+    """The floor of the room around a floor cell."""
+    return terrain.shared(("room", cell), lambda: looking.floor_around(terrain.plan, cell))
+
+
+def _is_unseen(
+    room: frozenset[Cell], index: Callable[[Cell], int], explored: int, cell: Cell
+) -> bool:
+    return cell in room and not explored >> index(cell) & 1
 
 
 def _the_only(ways: list[list[Cell]]) -> list[Cell]:

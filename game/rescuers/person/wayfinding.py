@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from game.rescuers.literal import looking
-from game.rescuers.literal.execution import Doing, Walker
+from game.rescuers.literal.execution import Doing, Walker, room_around
 from game.rescuers.person.memory import MapMemory
 from game.world.geometry import Cell, Heading
 from game.world.observation import Observation
 from game.world.settings import Controls
-from game.world.terrain import Terrain
 
 
 class Search:
@@ -102,7 +100,7 @@ class BoundedWalker(Walker):
                 if is_new:
                     self._ponder()
             else:
-                enclosed = _room_around(now.terrain, place)
+                enclosed = room_around(now.terrain, place)
                 if now.position in enclosed:
                     self._room = enclosed
                     return now
@@ -110,11 +108,6 @@ class BoundedWalker(Walker):
             in_sight = any(seen.label == place for seen in now.rooms)
             if search.under_way and in_sight and search.known_place() is None:
                 search.rule_out(place)
-
-
-def _room_around(terrain: Terrain, cell: Cell) -> frozenset[Cell]:
-    """The floor of the room around a cell."""
-    return terrain.shared(("room", cell), lambda: looking.floor_around(terrain.plan, cell))
 
 
 def _next_cell(now: Observation, target: Cell) -> Cell:

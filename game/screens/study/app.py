@@ -56,6 +56,7 @@ class StudyApp(Program, inherit_bindings=False):
         self._lock: SessionLock | None = None
         self._covered_at: int | None = None
         self._leaving = False
+        self._defect = ""
 
     def on_mount(self) -> None:
         lead_out(self._note_signal, self._leave)
@@ -98,6 +99,7 @@ class StudyApp(Program, inherit_bindings=False):
             self.session = open_session(
                 self.study, self.identity, this_terminal(*self.size), silent_ms=silent_ms
             )
+            self._note_early_defect()
             if await conduct(self.session, self.person) == "stopped":
                 goodbye = self.study.texts.words.goodbye
                 await self.push_screen_wait(PageScreen(self.frame, goodbye))
@@ -116,9 +118,15 @@ class StudyApp(Program, inherit_bindings=False):
     # --- what breaks in -------------------------------------------------------------------------
 
     def note_defect(self, error: Exception) -> None:
+        self._defect = self._defect or where(error)
         if self.session is not None:
             with suppress(Exception):
-                self.session.note_defect(where(error))
+                self.session.note_defect(self._defect)
+
+    def _note_early_defect(self) -> None:
+        """Something failed before there was a session to note it in, and the program is closing."""
+        if self._defect and self.session is not None:
+            self.session.note_defect(self._defect)
 
     def _note_signal(self, name: str) -> None:
         if self.session is not None:

@@ -8,7 +8,6 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from html import escape
 from pathlib import Path, PurePath
 from typing import Any, ClassVar, Literal
 
@@ -34,7 +33,8 @@ from game.screens.widgets.program import Program
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
 from game.study.design import BLOCK, design_cell
-from game.study.folder import Identity, Study, StudyError
+from game.study.folder import Identity, Study
+from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
@@ -252,37 +252,18 @@ def rehearsed(study: Study) -> list[Rehearsed]:
     return asyncio.run(rehearse(study))
 
 
-def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
-    """Write every page as SVG to the new folder `out`, and one HTML page with all of them, whose
-    path is returned. Raises StudyError where that cannot be done."""
-    body = []
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        for number, page in enumerate(pages, start=1):
-            body.append(f"<h2>{escape(page.name)}</h2>")
-            for part, picture in enumerate(page.pictures, start=1):
-                name = f"{number:02}-{part}.svg"
-                (out / name).write_text(picture, encoding="utf-8")
-                body.append(f'<img src="{name}" alt="{escape(page.name)}">')
-        index = out / "index.html"
-        index.write_text(_HTML.format(title=escape(study), body="\n".join(body)), "utf-8")
-    except OSError as error:
-        raise StudyError(
-            f"the pictures cannot be written ({error.strerror})",
-            place=str(out),
-            hint="Choose a folder that you can write to",
-        ) from error
-    return index
-
-
-_HTML = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>{title}</title>
-<style>
-body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto }}
-img {{ width: 100% }}
-</style>
-<h1>{title}</h1>
-<p>Every page as participants see it, in the order of a session.</p>
-{body}
-</html>
-"""
+def found_wrong(study: Study) -> tuple[list[str], list[Rehearsed]]:
+    """Everything that `ana study check` finds wrong, in words, and the pages that it opened."""
+    pages = rehearsed(study)
+    hidden = [
+        f"page {page.name}: these words are cut off or hidden: {' '.join(page.missing)}"
+        for page in pages
+        if page.missing
+    ]
+    too_tall = [
+        f"page {page.name}: the question {question} has {rows} rows more than fit, so it is never "
+        "wholly in view; shorten it"
+        for page in pages
+        for question, rows in page.too_tall.items()
+    ]
+    return [*shortfalls(study), *hidden, *too_tall], pages

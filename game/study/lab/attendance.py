@@ -6,6 +6,7 @@ Nothing here writes or waits. Only what was added to a journal since the last lo
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,8 +14,9 @@ from typing import Literal, get_args
 
 import msgspec
 
-from game.journal.folders import JOURNAL, SESSIONS
+from game.journal.folders import JOURNAL, folders_of
 from game.journal.history import History
+from game.journal.journal_error import JournalError
 from game.journal.records import (
     STUDY_MODES,
     Allocated,
@@ -122,7 +124,7 @@ class SessionWatch:
         """Whether the journal is shorter than what was read of it: it is another one."""
         try:
             return (self.home / JOURNAL).stat().st_size < self.offset
-        except FileNotFoundError:
+        except OSError:
             return self.offset > 0
 
     def status(self, settings: StudySettings, now: datetime) -> SessionStatus:
@@ -173,7 +175,7 @@ class SessionWatch:
             found.append(
                 f"the journal ends in an unfinished line ({len(self._tail)} bytes, ignored)"
             )
-        if state == "cut off":
+        if state == "cut off" and not self.trouble:
             found.append("the program ended unexpectedly; the participant can log in again")
         silent = silent_s is not None and silent_s > SILENCE_S
         if state == "taking part" and self._timed and silent:
@@ -203,20 +205,26 @@ class Attendance:
     def look(self, settings: StudySettings, now: datetime | None = None) -> list[SessionStatus]:
         """Where everyone is now, by mode and participant.
 
-        People who left before consent are missing: nothing was recorded about them.
+        People who left before consent are missing: nothing was recorded about them. So are those
+        whose mode's folder cannot be read, which `Hindrances` names.
         """
         moment = now or datetime.now(UTC)
         watched = (self._watch(identity, home) for identity, home in self._homes())
         self._watched = {watch.identity: watch for watch in watched}
         for watch in self._watched.values():
             watch.look()
-        statuses = [watch.status(settings, moment) for watch in self._watched.values()]
-        return [one for one in statuses if one.silent_s is not None or one.state == "taking part"]
+        found = [(watch, watch.status(settings, moment)) for watch in self._watched.values()]
+        return [
+            one
+            for watch, one in found
+            if one.silent_s is not None or one.state == "taking part" or watch.trouble
+        ]
 
     def _homes(self) -> Iterator[tuple[Identity, Path]]:
         for mode in STUDY_MODES:
-            for home in sorted((self.folder / SESSIONS / mode).glob("*/")):
-                yield Identity(mode, home.name), home
+            with suppress(JournalError):
+                for home in folders_of(self.folder, mode):
+                    yield Identity(mode, home.name), home
 
     def _watch(self, identity: Identity, home: Path) -> SessionWatch:
         """The watch kept so far, unless the journal is another one now."""

@@ -17,6 +17,7 @@ from pathlib import Path
 import msgspec
 
 from game import __version__
+from game.errors import disk_hint
 from game.forms.reading import FORMS, ITEMS
 from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
@@ -35,7 +36,7 @@ from game.study.lab.psychds import (
     table_text,
 )
 from game.study.lab.sessions import sessions_of
-from game.study.ledger import Ledger
+from game.study.ledger import Ledger, LedgerEntry, slot_of
 from game.study.study_settings import read_settings
 from game.tables.rows import TableRow
 from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
@@ -80,17 +81,16 @@ def export_study(
     found: dict[StudyMode, Tables] = {}
     files: dict[str, bytes] = {}
     for mode in dict.fromkeys(modes):
-        left_out = [name for name in without if (folder / SESSIONS / mode / name).is_dir()]
         sessions = [
             (transcript, without_free_text(_lines_read(transcript)))
-            for transcript in sessions_of(folder, mode, entries, left_out)
+            for transcript in sessions_of(folder, mode, entries, without)
         ]
         if anonymous:
             sessions = anonymised(sessions)
         found[mode] = combined(tables_of(transcript for transcript, _ in sessions))
         for transcript, lines in sessions:
             files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
-    _all_there(folder, modes, without)
+    _all_there(folder, modes, without, entries)
     files |= _described(folder, settings.name, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
@@ -121,10 +121,18 @@ class _Handling:
         return left + (changed if self.anonymous else "")
 
 
-def _all_there(folder: Path, modes: Sequence[StudyMode], without: Collection[str]) -> None:
-    """Raise StudyError unless each of `without` is a session of one of the modes."""
+def _all_there(
+    folder: Path,
+    modes: Sequence[StudyMode],
+    without: Collection[str],
+    entries: Sequence[LedgerEntry],
+) -> None:
+    """Raise StudyError unless each of `without` has a session or a place in one of the modes."""
     for name in without:
-        if not any((folder / SESSIONS / mode / name).is_dir() for mode in modes):
+        if not any(
+            (folder / SESSIONS / mode / name).is_dir() or slot_of(entries, name, mode)
+            for mode in modes
+        ):
             raise StudyError(
                 f"there is no session of {name} to leave out",
                 place=str(folder),
@@ -177,9 +185,25 @@ def _described(
     files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, _asked(folder)):
         files[f"materials/{material}"] = (folder / material).read_bytes()
-    for version in sorted((folder / VERSIONS).glob("*.*")):
-        files[f"materials/{VERSIONS}/{version.name}"] = version.read_bytes()
-    return files
+    return files | _versions(folder)
+
+
+def _versions(folder: Path) -> dict[str, bytes]:
+    """Every version of what sessions were made from. Raises StudyError where one cannot be read."""
+    kept = folder / VERSIONS
+    try:
+        return {
+            f"materials/{VERSIONS}/{version.name}": version.read_bytes()
+            for version in sorted(kept.iterdir())
+        }
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise StudyError(
+            f"the study's earlier versions cannot be read ({error.strerror})",
+            place=str(error.filename or kept),
+            hint=disk_hint(error),
+        ) from error
 
 
 def _asked(folder: Path) -> str:
@@ -225,7 +249,7 @@ def _notes(folder: Path) -> DatasetNotes:
     if not path.exists():
         return DatasetNotes()
     try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), DatasetNotes)
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8-sig")), DatasetNotes)
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         fields = ", ".join(DatasetNotes.__struct_fields__)
         raise StudyError(

@@ -8,21 +8,17 @@ from functools import partial
 from pathlib import Path
 
 from game.errors import AnaError
-from game.journal.folders import JOURNAL, homes, misplaced
+from game.journal.folders import JOURNAL, folders_of, has_journal, misplaced
 from game.journal.reader import read_journal
 from game.journal.records import STUDY_MODES, StudyMode
-from game.study.folder import Study, open_study, roster_of
-from game.study.lab.sessions import without_a_place
+from game.study.folder import ROSTER, Study, open_study, roster_of
+from game.study.lab.sessions import places_without_a_session, without_a_place
 from game.study.ledger import (
     LedgerEntry,
     SlotTaken,
     agreed_inputs,
     differing,
-    ending_of,
 )
-
-LEAST_FREE_BYTES = 1_000_000_000
-"""A disk with less room is nearly full: a session takes 2 MB, and the system needs the rest."""
 
 
 class Hindrances:
@@ -55,11 +51,30 @@ def _all(folder: Path, entries: Sequence[LedgerEntry], cached: _Cached) -> Itera
         yield f"nobody can log in: {error}"
     else:
         yield from _unrecorded(study, entries)
-    free = shutil.disk_usage(folder).free
-    if free < LEAST_FREE_BYTES:
-        yield f"the disk is nearly full: {free // 1_000_000} MB are left"
+        yield from _room(study)
+    yield from _roster(folder)
     for mode in STUDY_MODES:
         yield from _sessions(folder, mode, entries, cached)
+
+
+def _room(study: Study) -> Iterator[str]:
+    free_mb = shutil.disk_usage(study.folder).free // 1_000_000
+    least_mb = study.settings.least_free_mb
+    if free_mb < least_mb:
+        yield (
+            f"the disk is nearly full: {free_mb} MB are left, and there should be {least_mb} "
+            "(least_free_mb in study.toml)"
+        )
+
+
+def _roster(folder: Path) -> Iterator[str]:
+    try:
+        roster = roster_of(folder)
+    except AnaError as error:
+        yield f"nobody can log in: {error}"
+    else:
+        if roster == ():
+            yield f"nobody can log in: {folder / ROSTER} has no ID in it. Fill it, or remove it"
 
 
 def _unrecorded(study: Study, entries: Sequence[LedgerEntry]) -> Iterator[str]:
@@ -75,30 +90,30 @@ def _sessions(
     folder: Path, mode: StudyMode, entries: Sequence[LedgerEntry], cached: _Cached
 ) -> Iterator[str]:
     try:
-        found = homes(folder, mode)
+        found = folders_of(folder, mode)
     except AnaError as error:
         yield str(error)
         return
+    begun: set[str] = set()
     for home in found:
         path = home / JOURNAL
-        if path.is_file() and path.stat().st_size:
+        try:
+            there = has_journal(home) and path.stat().st_size > 0
+        except AnaError as error:
+            begun.add(home.name)
+            yield str(error)
+            continue
+        if there:
+            begun.add(home.name)
             wrong = cached(path, partial(_session, folder, mode, path, entries))
             if wrong:
                 yield wrong
-    names = {home.name for home in found}
     alike: dict[str, str] = {}
-    for name in sorted(names):
+    for name in sorted(home.name for home in found):
         other = alike.setdefault(name.casefold(), name)
         if other != name:
             yield f"{other} and {name} ({mode}) differ in case alone: is it the same person?"
-    for entry in entries:
-        if (
-            isinstance(entry, SlotTaken)
-            and entry.mode == mode
-            and entry.participant not in names
-            and ending_of(entries, entry.participant, mode) != "withdrawn"
-        ):
-            yield f"{entry.participant} ({mode}) has place {entry.slot}, but no session"
+    yield from places_without_a_session(entries, mode, begun)
 
 
 def _session(folder: Path, mode: StudyMode, path: Path, entries: Sequence[LedgerEntry]) -> str:
@@ -112,8 +127,12 @@ def _session(folder: Path, mode: StudyMode, path: Path, entries: Sequence[Ledger
 
 
 def not_come(folder: Path, entries: Sequence[LedgerEntry]) -> tuple[str, ...]:
-    """Who is on the roster and has not begun; nobody where there is no roster."""
-    roster = roster_of(folder)
-    there = {home.name for home in homes(folder, "live")}
+    """Who is on the roster and has not begun; nobody where there is no roster, or what is there
+    cannot be read."""
+    try:
+        roster = roster_of(folder)
+        there = {home.name for home in folders_of(folder, "live")}
+    except AnaError:
+        return ()
     left = {it.participant for it in entries if isinstance(it, SlotTaken) and it.mode == "live"}
     return tuple(name for name in roster or () if name not in there | left)

@@ -6,8 +6,9 @@ import shutil
 from typing import NamedTuple
 
 from game.errors import did_you_mean
-from game.journal.folders import JOURNAL, homes
+from game.journal.folders import JOURNAL, folders_of, has_journal
 from game.journal.history import read_history
+from game.journal.journal_error import JournalError
 from game.journal.reader import read_journal
 from game.journal.sink import sync_folder
 from game.study.folder import Identity, Study, StudyError
@@ -41,13 +42,17 @@ def drop_out(study: Study, identity: Identity) -> None:
 class Recorded(NamedTuple):
     """What is known about a participant before they withdraw."""
 
-    since_utc: str
-    phase: str
-    round: int
-    records: int
+    since_utc: str = ""
+    phase: str = ""
+    round: int = 0
+    records: int = 0
+    trouble: str = ""
+    """Why it cannot be told how far they are."""
 
     def told(self) -> str:
         """In words: how far they are, and since when."""
+        if self.trouble:
+            return f"how far they are cannot be told: {self.trouble}"
         if not self.records:
             return "nothing has been recorded"
         far = f"{self.phase}, round {self.round}" if self.round else self.phase
@@ -55,21 +60,24 @@ class Recorded(NamedTuple):
 
 
 def recorded(study: Study, identity: Identity) -> Recorded:
-    """What is there of a participant. Raises StudyError where the study never heard of them."""
+    """What is there of a participant, also where it cannot be read. Raises StudyError where the
+    study never heard of them."""
     home, entries = study.home(identity), study.ledger.entries()
     mode, participant = identity
     known = slot_of(entries, participant, mode) or ending_of(entries, participant, mode)
-    if not home.is_dir() and not known:
-        there = [one.name for one in homes(study.folder, mode)]
+    if not known and home not in folders_of(study.folder, mode):
+        there = [one.name for one in folders_of(study.folder, mode)]
         raise StudyError(
             f"there is no participant {participant} among the {mode} ones of this study",
             place=str(study.folder),
             hint=did_you_mean(participant, there) or "`ana study status` lists who there is",
         )
-    path = home / JOURNAL
-    if not path.is_file():
-        return Recorded("", "", 0, 0)
-    transcript = read_journal(path)
+    try:
+        if not has_journal(home):
+            return Recorded()
+        transcript = read_journal(home / JOURNAL)
+    except JournalError as error:
+        return Recorded(trouble=str(error))
     history = read_history(transcript)
     return Recorded(
         history.started_utc, history.step.phase, history.step.round, len(transcript.entries)
@@ -84,7 +92,7 @@ def withdraw(study: Study, identity: Identity) -> bool:
     cannot be deleted.
     """
     home = study.home(identity)
-    lock = SessionLock(home) if home.exists() else None
+    lock = SessionLock(home) if home in folders_of(study.folder, identity.mode) else None
     try:
         study.ledger.end_session(identity.participant, identity.mode, "withdrawn")
         if lock is None:

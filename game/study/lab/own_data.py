@@ -18,13 +18,16 @@ def write_own_data(study: Study, identity: Identity, out: Path) -> int:
     Raises StudyError where the study never heard of the participant, nothing was recorded, or `out`
     is there already or cannot be written.
     """
-    if not recorded(study, identity).records:
+    path = study.home(identity) / JOURNAL
+    found = recorded(study, identity)
+    if found.trouble:
+        raise StudyError(f"their data cannot be given: {found.trouble}")
+    if not found.records:
         raise StudyError(
             f"nothing has been recorded about {identity.participant}", place=str(study.folder)
         )
     if out.exists():
         raise StudyError("there already is such a folder", place=str(out), hint="Choose a new one")
-    path = study.home(identity) / JOURNAL
     tables = session_tables(read_journal(path))
     files = {JOURNAL: read_file(path), "codebook.md": codebook_page(ROW_TYPES).encode()}
     for name, row in ROW_TYPES.items():

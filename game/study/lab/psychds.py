@@ -25,8 +25,9 @@ IGNORE_FILES = (".psychds-ignore", ".psychdsignore")
 """Older and newer validators read one or the other."""
 
 
-_FORMULA = ("=", "+", "-", "@")
-"""How a text begins that a spreadsheet would compute."""
+_FORMULA = tuple("=+-@\uff1d\uff0b\uff0d\uff20")
+"""How a text begins that a spreadsheet would compute, blanks before it or not; the last four are
+the wide signs of Chinese and Japanese keyboards."""
 
 
 class DatasetNotes(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -64,7 +65,7 @@ def table_text(row: type[TableRow], rows: Iterable[TableRow]) -> str:
 def _safe(value: object) -> str:
     """A cell. Text that a spreadsheet would take for a formula gets an apostrophe before it."""
     text = cell(value)
-    return f"'{text}" if isinstance(value, str) and text.startswith(_FORMULA) else text
+    return f"'{text}" if isinstance(value, str) and text.lstrip().startswith(_FORMULA) else text
 
 
 def all_columns(tables: Iterable[type[TableRow]]) -> dict[str, TableColumn]:

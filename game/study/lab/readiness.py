@@ -21,26 +21,40 @@ _TRIAL = ".check"
 def shortfalls(study: Study) -> Iterator[str]:
     """Everything that would keep sessions from being run or kept here, in words."""
     yield from Hindrances(study.folder).look(study.ledger.entries())
-    yield from _files(study)
+    yield from _files(study.folder)
     yield from _writing(study.folder)
     yield from _locale()
     yield from _half_time(study)
 
 
-def _files(study: Study) -> Iterator[str]:
-    folder = study.folder
+def _files(folder: Path) -> Iterator[str]:
     owner = folder.stat().st_uid
-    for path in (folder, *sorted(folder.glob("*")), *sorted((folder / SESSIONS).glob("*/*"))):
-        found = path.stat()
+    for path in _everything(folder):
+        found = path.lstat()
         if found.st_uid != owner:
             yield f"{path} belongs to another account; give it to {folder.owner()} with chown"
-        if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        elif not os.access(path, os.R_OK):
+            yield f"{path} cannot be read by this account; allow it with chmod u+r"
+        elif _written(folder, path) and not os.access(path, os.W_OK):
+            yield f"{path} cannot be written by this account; allow it with chmod u+w"
+        if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH) and not path.is_symlink():
             yield f"{path} can be written by other accounts; take that away with chmod go-w"
-    for name in (*study.files, LEDGER):
-        if not os.access(folder / name, os.R_OK):
-            yield f"{folder / name} cannot be read by this account"
-    if not os.access(folder / LEDGER, os.W_OK):
-        yield f"{folder / LEDGER} cannot be written by this account"
+
+
+def _everything(folder: Path) -> Iterator[Path]:
+    """The folder and all that lies in it, as far as it can be looked into."""
+    for parent, folders, files in os.walk(folder):
+        folders.sort()
+        yield Path(parent)
+        yield from (Path(parent) / name for name in sorted(files))
+        yield from (
+            Path(parent) / name for name in folders if not os.access(Path(parent) / name, os.X_OK)
+        )
+
+
+def _written(folder: Path, path: Path) -> bool:
+    """Whether sessions write to it: the ledger, the folders, and what is in `sessions`."""
+    return path.is_dir() or path == folder / LEDGER or path.is_relative_to(folder / SESSIONS)
 
 
 def _writing(folder: Path) -> Iterator[str]:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
-from game.journal.folders import PUT_BACK, transcripts
+from game.journal.folders import PUT_BACK, SESSIONS, journals, transcripts
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import Allocated, StudyMode
-from game.study.ledger import LedgerEntry, ending_of, slot_of
+from game.study.folder import LEDGER
+from game.study.ledger import Ledger, LedgerEntry, SlotTaken, ending_of, slot_of
 
 
 def sessions_of(
@@ -18,7 +19,7 @@ def sessions_of(
     """The sessions of a mode but for withdrawn ones and those in the folders `without`.
 
     Raises JournalError, naming the file, for one that cannot be read, lies in the wrong place or
-    has a place that the ledger does not know.
+    has a place that the ledger does not know, and for a place whose session is gone.
     """
     found = []
     for transcript in transcripts(folder, mode, without):
@@ -28,7 +29,56 @@ def sessions_of(
         if wrong := without_a_place(transcript, entries, mode):
             raise JournalError(wrong, place=transcript.source, hint=PUT_BACK)
         found.append(transcript)
+    _refuse_lost(folder, mode, entries, {it.started.participant for it in found} | set(without))
     return found
+
+
+def refuse_unlike_ledger(folder: Path, mode: StudyMode) -> None:
+    """Compare the folders of a mode's sessions with the study's ledger; nobody opens a journal.
+
+    Raises JournalError for a place whose session is gone, and for a session whose participant has
+    withdrawn. What is no study of ours has no ledger, and passes.
+    """
+    ledger = Ledger(folder / LEDGER)
+    if not ledger.path.exists():
+        return
+    entries = ledger.entries()
+    there = {path.parent.name for path in journals(folder, mode)}
+    _refuse_lost(folder, mode, entries, there)
+    for name in sorted(there):
+        if ending_of(entries, name, mode) == "withdrawn":
+            raise JournalError(
+                f"{name} ({mode}) has withdrawn, and what was recorded is still there",
+                place=str(folder / SESSIONS / mode / name),
+                hint=f"Delete it: ana study withdraw {folder} {name}",
+            )
+
+
+def _refuse_lost(
+    folder: Path, mode: StudyMode, entries: Sequence[LedgerEntry], there: Collection[str]
+) -> None:
+    for lost in places_without_a_session(entries, mode, there):
+        raise JournalError(lost, place=str(folder / SESSIONS / mode), hint=_LOST)
+
+
+def places_without_a_session(
+    entries: Sequence[LedgerEntry], mode: StudyMode, there: Collection[str]
+) -> Iterator[str]:
+    """Who has a place but is not among those whose session is `there`, and has not withdrawn."""
+    for entry in entries:
+        if (
+            isinstance(entry, SlotTaken)
+            and entry.mode == mode
+            and entry.participant not in there
+            and ending_of(entries, entry.participant, mode) != "withdrawn"
+        ):
+            yield f"{entry.participant} ({mode}) has place {entry.slot}, but no session"
+
+
+_LOST = (
+    "Bring the session's folder back from a backup, or export the study without it "
+    "(ana study export --without ID) and use the dataset"
+)
 
 
 def without_a_place(transcript: Transcript, entries: Sequence[LedgerEntry], mode: StudyMode) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 import msgspec
 
 from game.study.design import BLOCK
-from game.study.folder import LEDGER, SETTINGS
+from game.study.folder import LEDGER, SETTINGS, kept_copy
 from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.lab.hindrances import Hindrances, not_come
 from game.study.lab.sessions import sessions_of
@@ -24,10 +24,11 @@ from game.study.ledger import (
     SlotTaken,
     StudyCreated,
     Unblinded,
+    agreed_inputs,
     ending_of,
     is_closed,
 )
-from game.study.study_settings import StudySettings, read_settings
+from game.study.study_settings import SettingsError, StudySettings, read_settings
 from game.tables.exclusions import ExclusionRule
 from game.tables.session_tables import combined, tables_of
 
@@ -83,8 +84,8 @@ class StatusReader:
 
     def look(self) -> StudyStatus:
         """The study now. Raises SettingsError or LedgerError if the folder is not a study."""
-        settings, _ = read_settings(self.folder / SETTINGS)
         entries = Ledger(self.folder / LEDGER).entries()
+        settings = _settings(self.folder, entries)
         sessions = tuple(self._attendance.look(settings))
         return StudyStatus(
             study=settings.name,
@@ -100,6 +101,18 @@ class StatusReader:
                 for problem in session.problems
             ),
         )
+
+
+def _settings(folder: Path, entries: Sequence[LedgerEntry]) -> StudySettings:
+    """The settings; where they cannot be used, those that were last agreed on, if there is a copy:
+    an error in a file must not hide where everyone is."""
+    try:
+        return read_settings(folder / SETTINGS)[0]
+    except SettingsError:
+        agreed = kept_copy(folder, SETTINGS, agreed_inputs(entries).get(SETTINGS, ""))
+        if not agreed.is_file():
+            raise
+        return read_settings(agreed)[0]
 
 
 def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[CellCount, ...]:

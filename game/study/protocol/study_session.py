@@ -13,6 +13,7 @@ from typing import Literal
 
 from msgspec.structs import replace
 
+from game.errors import where
 from game.journal.clock import Clock, SystemClock
 from game.journal.folders import JOURNAL
 from game.journal.history import Step, history_of
@@ -206,15 +207,20 @@ def open_session(
     if history_of((entry.envelope, entry.record) for entry in before).over:
         journal = Journal.buffered(None, started, clock)
         return StudySession(study, identity, journal, clock, started, keep, before)
-    journal = Journal.resume(path, terminal, clock)
-    session = StudySession(study, identity, journal, clock, started, keep, before)
-    if silent_ms is not None:
-        session.record(TakenOver(silent_ms))
     changed = differing(_inputs_before(before), study.inputs)
+    news: list[Record] = [] if silent_ms is None else [TakenOver(silent_ms)]
     if changed:
-        session.record(
+        news.append(
             StudyAmended(study.copy, amendment(study), inputs=dict(study.inputs), changed=changed)
         )
+    journal = Journal.resume(path, terminal, clock)
+    try:
+        session = StudySession(study, identity, journal, clock, started, keep, before)
+        for record in news:
+            session.record(record)
+    except Exception as error:
+        journal.append(Interruption("defect", error=where(error)))
+        raise
     return session
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from itertools import count, islice
 from pathlib import Path
 from random import Random
 
@@ -25,8 +26,8 @@ STEPS = (
     Step("preference"),
     Step("debrief"),
 )
-MOST_CALLS = 1_000
-"""About as many calls are counted in a session of random keys."""
+MOST_CALLS = 600
+"""Random keys lead to about so many counted calls, and often to more."""
 
 
 def survives(finished: Study, folder: Path, seed: int) -> str:
@@ -51,8 +52,7 @@ def survives(finished: Study, folder: Path, seed: int) -> str:
             and "/journal/" not in outcome.place
         ):
             noted = [it.kind for it in after if isinstance(it, Interruption)]
-            opening = any(it in outcome.place for it in ("open_session", "StudySession.__init__"))
-            assert noted == ["defect"] or opening, outcome.place
+            assert noted == ["defect"], outcome.place
     return outcome.place
 
 
@@ -62,8 +62,7 @@ def test_a_fault_at_a_random_place(finished: Study, tmp_path: Path, seed: int) -
 
 
 @pytest.mark.slow
-def test_faults_at_many_random_places(finished: Study, tmp_path: Path) -> None:
-    places = {
-        survives(finished, tmp_path / str(seed), seed) for seed in range(QUICK, QUICK + MANY)
-    } - {""}
-    assert len(places) > MANY / 3
+def test_two_hundred_faults_at_random_places(finished: Study, tmp_path: Path) -> None:
+    raised = (survives(finished, tmp_path / str(seed), seed) for seed in count(QUICK))
+    places = list(islice(filter(None, raised), MANY))
+    assert len(set(places)) > MANY / 3

@@ -1,0 +1,67 @@
+"""The pages of a study as pictures for whoever must approve of it: SVG, PNG, and one HTML page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+from game.screens.study.rehearsal import Rehearsed
+from game.study.folder import StudyError
+
+_FONT_RULES = re.compile(r"\s*@font-face \{[^}]*\}")
+"""Where a picture would fetch its font from; nothing is fetched."""
+_LETTER = '<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20">{}</svg>'
+
+_HTML = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><title>{title}</title>
+<style>
+body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto }}
+img {{ width: 100% }}
+</style>
+<h1>{title}</h1>
+<p>Every page as participants see it, in the order of a session.</p>
+{body}
+</html>
+"""
+
+
+def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
+    """Write every page as SVG and PNG to the folder `out`, and one HTML page with all of them,
+    whose path is returned. Raises StudyError where that cannot be done."""
+    _need_a_font()
+    body = []
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for number, page in enumerate(pages, start=1):
+            body.append(f"<h2>{escape(page.name)}</h2>")
+            for part, picture in enumerate(page.pictures, start=1):
+                path = out / f"{number:02}-{part}.svg"
+                drawn = _FONT_RULES.sub("", picture)
+                path.write_text(drawn, encoding="utf-8")
+                path.with_suffix(".png").write_bytes(_png(drawn))
+                body.append(f'<img src="{path.name}" alt="{escape(page.name)}">')
+        index = out / "index.html"
+        index.write_text(_HTML.format(title=escape(study), body="\n".join(body)), "utf-8")
+    except OSError as error:
+        raise StudyError(
+            f"the pictures cannot be written ({error.strerror})",
+            place=str(out),
+            hint="Choose a folder that you can write to",
+        ) from error
+    return index
+
+
+def _png(svg: str) -> bytes:
+    from resvg_py import svg_to_bytes
+
+    return bytes(svg_to_bytes(svg_string=svg, monospace_family="DejaVu Sans Mono"))
+
+
+def _need_a_font() -> None:
+    if _png(_LETTER.format("")) == _png(_LETTER.format('<text y="15">M</text>')):
+        raise StudyError(
+            "the pictures would have no letters: this machine has no fonts",
+            hint="Install some, such as the package fonts-dejavu",
+        )
