@@ -104,7 +104,9 @@ class Belief:
         match event:
             case Acted(action=action):
                 cell, heading = transition.pose_after(self.position, self.heading, action)
-                return replace(self, position=cell, heading=heading)
+                return Belief(
+                    self.space, cell, heading, self.unseen, self.rooms, self.victims, self.resolved
+                )
             case Rescued(victim=victim) | Expired(victim=victim):
                 return replace(self, resolved=self.resolved | {victim})
         return self

@@ -106,14 +106,18 @@ class Compliance:
         """After a move, bump or turn at `at_ms` that leaves `distance` cells to go. `nearer` is
         whether it was progress on the way that was told, even if the distance says otherwise."""
         progress = nearer or distance < self.least
-        return replace(
-            self,
+        return Compliance(
+            self.level,
             most=max(self.most, distance),
             least=min(self.least, distance),
             distance=distance,
             at_ms=at_ms,
             rising=distance > self.distance,
+            read_ms=self.read_ms,
+            notice_ms=self.notice_ms,
             nearer_ms=at_ms if progress else self.nearer_ms,
+            patience_ms=self.patience_ms,
+            warned=self.warned,
         )
 
     @property

@@ -38,6 +38,8 @@ def _as_its_owner(ctx: click.Context, _param: click.Parameter, folder: Path) -> 
 _FOLDER = click.argument(
     "folder", metavar="DIR", type=click.Path(path_type=Path), callback=_as_its_owner
 )
+_ANY_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+"""Where a participant is at the terminal: what fails, this check included, is shown on a page."""
 _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 STATUS_TROUBLE = 2
@@ -87,7 +89,7 @@ def print_form(name: str | None) -> None:
 
 
 @study_group.command("run", short_help="Let a participant take part here.")
-@_FOLDER
+@_ANY_FOLDER
 @click.option("--participant", required=True, metavar="ID", help="A pseudonym, such as P01.")
 @_PILOT
 def run_participant(folder: Path, participant: str, pilot: bool) -> int:
@@ -96,8 +98,9 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
         signal.signal(number, signal.SIG_IGN)
     try:
         from game.screens.study.app import run_session
-        from game.study.folder import identify, open_study
+        from game.study.folder import identify, open_study, refuse_other_accounts
 
+        refuse_other_accounts(folder, f"ana study run {folder} --participant {participant}")
         identity = identify(participant, pilot=pilot)
         return run_session(open_study(folder), identity)
     except AnaError:
@@ -327,7 +330,7 @@ def print_ssh_configuration(
 
 
 @study_group.command("login", short_help="What the SSH server runs for a participant.")
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@_ANY_FOLDER
 @_PILOT
 def let_in(folder: Path, *, pilot: bool) -> int:
     """Let the person who logged in over SSH take part in the study DIR (run by the server).

@@ -6,8 +6,7 @@ virtual one, a replay the recorded times.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from game.coach.api import Coach
@@ -76,9 +75,11 @@ class MissionRun:
 
     def begin(self) -> None:
         """Let the coach give its first instruction. Call once, at 0 ms."""
-        with self._recording():
+        try:
             self._happened += self.coach.begin(self.mission.observation())
             self._due = None
+        finally:
+            self._hand_over()
 
     def observation(self) -> Observation:
         return self.mission.observation(self.coach.guidance)
@@ -86,7 +87,7 @@ class MissionRun:
     def press(self, action: Action, now_ms: int) -> None:
         """A key was pressed. A move that comes before the pace allows waits for its time (see
         `waiting_after`); triage acts at once, and what waits is forgotten."""
-        with self._recording():
+        try:
             self._advance(now_ms)
             if action is Action.TRIAGE:
                 self._waiting = ()
@@ -98,36 +99,40 @@ class MissionRun:
                 self._act(action, now_ms, now_ms)
             else:
                 self._waiting = waiting_after(self._waiting, _Waiting(action, now_ms), held=held)
+        finally:
+            self._hand_over()
 
     def advance(self, now_ms: int) -> None:
         """Make everything happen that is due by `now_ms`, each at its own time."""
-        with self._recording():
+        try:
             self._advance(now_ms)
+        finally:
+            self._hand_over()
 
     def act(self, action: Action, at_ms: int, pressed_ms: int) -> None:
         """Carry out an action at its recorded time, as a replay does: it was paced already."""
-        with self._recording():
+        try:
             self._advance(at_ms)
             self._act(action, at_ms, pressed_ms)
+        finally:
+            self._hand_over()
 
     def ask_level(self, want: LevelWish, at_ms: int) -> None:
         """The rescuer asks the coach for simpler or shorter words. Raises ValueError where the
         rules do not allow it."""
         if not self.mission.settings.level_key:
             raise ValueError("the level key is not allowed in this mission")
-        with self._recording():
+        try:
             self._advance(at_ms)
             if not self.ended:
                 self._tell([LevelAsked(at_ms, want)])
-
-    @contextmanager
-    def _recording(self) -> Iterator[None]:
-        try:
-            yield
         finally:
-            if self._happened:
-                happened, self._happened = self._happened, []
-                self._record(happened)
+            self._hand_over()
+
+    def _hand_over(self) -> None:
+        if self._happened:
+            happened, self._happened = self._happened, []
+            self._record(happened)
 
     def _advance(self, now_ms: int) -> None:
         while not self.ended:
