@@ -8,7 +8,7 @@ from pathlib import Path
 from analysis.pages.figures import write_figures
 from analysis.report import summary
 from analysis.sources.absent import Absent, Plain, Row, Tree, attempt, plain
-from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.sources.samples import left_by
 from analysis.sources.source import load_study
@@ -17,6 +17,7 @@ from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.cellmodel import contrast_row, weights_of
 from analysis.stats.clustering import Clustering
+from analysis.stats.composites import composite_rows
 from analysis.stats.corrections import PValue, holm_by_name
 from analysis.stats.equivalence import paired_row
 from analysis.stats.groups import group_shares, grouped
@@ -84,6 +85,7 @@ class BatteryResult:
 
 def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
     """Run everything on the sample that the primary exclusion rule leaves of all randomised."""
+    rules = rules.known_to(list(randomised.participants.columns))
     sample = left_by(randomised, rules.main())
     study, clustering = grouped(sample.study)
     notes = list(study.notes)
@@ -91,7 +93,7 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         notes.append(
             f"the source has no column {rules.main().column}: it is taken as the analysed sample"
         )
-    pairs = {outcome: attempt(paired, study, outcome) for outcome in OUTCOMES}
+    pairs = {outcome: attempt(paired, study, outcome) for outcome in study.outcomes}
     anovas = {
         outcome: pair if isinstance(pair, Absent) else attempt(mixed_anova, pair)
         for outcome, pair in pairs.items()
@@ -109,16 +111,19 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         "alpha": alpha_rows(study),
         "outcomes": {
             outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome])
-            for outcome in OUTCOMES
+            for outcome in study.outcomes
         },
-        "holm_across_mental_states": holm_across({state: anovas[state] for state in MENTAL_STATES}),
+        "holm_across_mental_states": holm_across(
+            {state: anovas[state] for state in study.asked.mental_states}
+        ),
         "preferred_instructor": attempt(preferred_rows, study),
         "ordinal": ordinal_rows(study),
+        "composites": composite_rows(study),
         "order_and_building": order_rows(study),
         "sensitivity": {
             "exclusions": exclusion_rows(randomised, rules),
             "continuous_score": {
-                outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
+                outcome: attempt(continuous_rows, study, outcome) for outcome in study.outcomes
             },
         },
         "power": power_rows(group_shares(study)),

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
+from functools import cache
+from importlib import resources
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
@@ -45,12 +47,27 @@ class FormsError(AnaError):
     """A file of forms cannot be used as it is."""
 
 
+def paper_text() -> str:
+    """The forms.toml of a new study: what the paper asked (5.3)."""
+    return (resources.files("game.forms") / "paper.toml").read_text(encoding="utf-8")
+
+
+@cache
+def paper_forms() -> Forms:
+    """The same, read."""
+    return forms_in(tomllib.loads(paper_text()), "paper.toml")
+
+
 class Pages(NamedTuple):
     """The pages of texts.toml that the forms of an earlier study stood on: title and body."""
 
     sliders: tuple[str, str]
     likert: tuple[str, str]
     check: tuple[str, str]
+
+
+BLANK = Pages(("", ""), ("", ""), ("", ""))
+"""For those who read what is asked, and not how."""
 
 
 class ReadForms(NamedTuple):

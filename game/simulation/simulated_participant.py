@@ -13,6 +13,7 @@ from game.forms.items import (
     ScaleItem,
     SliderItem,
     TextItem,
+    Weights,
 )
 from game.journal.clock import VirtualClock
 from game.journal.records import ROUNDS, Preflighted, Terminal
@@ -179,15 +180,16 @@ class SimulatedParticipant:
         if question.right is not None and chance.random() < ATTENTIVE:
             several = isinstance(question, ChoiceItem) and question.several
             return question.rights if several else question.rights[0]
+        weights = None
+        if isinstance(question, SliderItem | ScaleItem):
+            weights = question.weights or (Weights(valence=-1) if question.reverse else None)
         match question:
             case SliderItem():
                 ends = question.least, question.most
-                return self._respondent.slider(
-                    question.id, occasion, happened, ends, question.weights
-                )
+                return self._respondent.slider(question.id, occasion, happened, ends, weights)
             case ScaleItem():
                 return self._respondent.scale(
-                    question.id, occasion, happened, question.most, question.weights
+                    question.id, occasion, happened, question.most, weights
                 )
             case ChoiceItem(several=True):
                 positions = range(question.least, question.most + 1)

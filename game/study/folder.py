@@ -24,7 +24,7 @@ from typing import NamedTuple
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
 from game.forms.form import Forms
-from game.forms.reading import FORMS, read_forms
+from game.forms.reading import FORMS, paper_text, read_forms
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
@@ -45,6 +45,7 @@ from game.study.study_settings import (
     read_settings,
 )
 from game.study.texts import Texts, read_texts
+from game.tables.asked import asked_columns
 from game.world import load_building
 from game.world.building import Building
 from game.world.fitness import shortcomings
@@ -246,7 +247,7 @@ def new_study(
     try:
         make_folders(folder)
         for name in (SETTINGS, TEXTS, FORMS):
-            text = template.joinpath(name).read_text(encoding="utf-8")
+            text = paper_text() if name == FORMS else (template / name).read_text("utf-8")
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
                 text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
@@ -272,6 +273,7 @@ def open_study(folder: Path) -> Study:
     _same_as_created(settings, entries, path)
     texts = read_texts(folder / TEXTS)
     forms, asked, note = read_forms(folder, texts.form_pages)
+    asked_columns(forms)
     first, second = (_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(

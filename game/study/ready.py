@@ -8,7 +8,7 @@ from typing import Any
 
 from game.errors import AnaError, choose_from
 from game.forms.form import Forms
-from game.forms.reading import FORMS, forms_in
+from game.forms.reading import forms_in, paper_text
 
 _FOLDER = "ready_forms"
 PAPER = "paper"
@@ -25,9 +25,9 @@ def ready_text(name: str) -> str:
     """A ready form as it is written in forms.toml. Raises AnaError for a name that is none."""
     if name not in ready_names():
         raise AnaError(f"there is no ready form '{name}'", hint=choose_from(name, ready_names()))
-    folder = resources.files("game.study")
-    path = folder / "template" / FORMS if name == PAPER else folder / _FOLDER / f"{name}.toml"
-    return path.read_text(encoding="utf-8")
+    if name == PAPER:
+        return paper_text()
+    return (resources.files("game.study") / _FOLDER / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def ready_forms(name: str) -> Forms:

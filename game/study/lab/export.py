@@ -18,7 +18,7 @@ import msgspec
 
 from game import __version__
 from game.errors import disk_hint
-from game.forms.reading import FORMS, ITEMS
+from game.forms.reading import BLANK, ReadForms, read_forms
 from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
 from game.journal.records import StudyMode
@@ -39,7 +39,7 @@ from game.study.lab.sessions import sessions_of
 from game.study.ledger import Ledger, LedgerEntry, slot_of
 from game.study.study_settings import read_settings
 from game.tables.rows import TableRow
-from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
+from game.tables.session_tables import ROW_TYPES, Tables, combined, row_types, tables_of
 
 DATASET = "dataset.toml"
 """The optional file of `DatasetNotes` in the study folder."""
@@ -77,6 +77,7 @@ def export_study(
     """
     ledger = Ledger(folder / LEDGER)
     settings, _ = read_settings(folder / SETTINGS)
+    forms = read_forms(folder, BLANK)
     entries = ledger.entries()
     found: dict[StudyMode, Tables] = {}
     files: dict[str, bytes] = {}
@@ -87,11 +88,11 @@ def export_study(
         ]
         if anonymous:
             sessions = anonymised(sessions)
-        found[mode] = combined(tables_of(transcript for transcript, _ in sessions))
+        found[mode] = combined(tables_of((transcript for transcript, _ in sessions), forms.forms))
         for transcript, lines in sessions:
             files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
     _all_there(folder, modes, without, entries)
-    files |= _described(folder, settings.name, found, _Handling(tuple(without), anonymous))
+    files |= _described(folder, settings.name, forms, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
     _replace(out, files)
@@ -165,25 +166,26 @@ def _without_answer(line: bytes) -> bytes:
 
 
 def _described(
-    folder: Path, name: str, found: dict[StudyMode, Tables], handling: _Handling
+    folder: Path, name: str, forms: ReadForms, found: dict[StudyMode, Tables], handling: _Handling
 ) -> dict[str, bytes]:
     """All files except the raw journals, by path."""
+    types = row_types(forms.forms)
     texts = {
         f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
             table_text(row, tables.table(table))
         )
         for mode, tables in found.items()
-        for table, row in ROW_TYPES.items()
+        for table, row in types.items()
         if not (handling.anonymous and table == FREE_TEXT)
     }
     texts |= dict.fromkeys(IGNORE_FILES, IGNORED)
     texts["README.md"] = _readme(name, found, handling)
-    texts["documentation/codebook.md"] = codebook_page(ROW_TYPES)
-    texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
+    texts["documentation/codebook.md"] = codebook_page(types)
+    texts["documentation/codebook.csv"] = codebook_table(types)
     files = {path: text.encode() for path, text in texts.items()}
-    rows: Sequence[type[TableRow]] = tuple(ROW_TYPES.values())
+    rows: Sequence[type[TableRow]] = tuple(types.values())
     files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
-    for material in (SETTINGS, TEXTS, _asked(folder)):
+    for material in (SETTINGS, TEXTS, forms.name):
         files[f"materials/{material}"] = (folder / material).read_bytes()
     return files | _versions(folder)
 
@@ -204,11 +206,6 @@ def _versions(folder: Path) -> dict[str, bytes]:
             place=str(error.filename or kept),
             hint=disk_hint(error),
         ) from error
-
-
-def _asked(folder: Path) -> str:
-    """The file of the study's questions."""
-    return FORMS if (folder / FORMS).exists() else ITEMS
 
 
 def _summary(found: dict[StudyMode, Tables]) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import msgspec
 
+from game.forms.reading import BLANK, read_forms
 from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS, kept_copy
 from game.study.lab.attendance import Attendance, SessionStatus
@@ -30,7 +31,7 @@ from game.study.ledger import (
 )
 from game.study.study_settings import SettingsError, StudySettings, read_settings
 from game.tables.exclusions import ExclusionRule
-from game.tables.session_tables import combined, tables_of
+from game.tables.session_tables import combined, row_types, tables_of
 
 
 class Totals(msgspec.Struct, frozen=True, kw_only=True):
@@ -129,7 +130,9 @@ def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[C
         for entry in entries
         if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    people = combined(tables_of(sessions_of(folder, "live", entries))).participants
+    forms = read_forms(folder, BLANK).forms
+    rules = [it for it in rules if it.column in row_types(forms)["participants"].__struct_fields__]
+    people = combined(tables_of(sessions_of(folder, "live", entries), forms)).participants
     counts = []
     for code in sorted({entry.cell.code for entry in taken.values()}):
         here = [
