@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 
 import pytest
 
 from game.cli import main
-from game.commands.ana_play import assigned, options_of
+from game.commands.ana_play import assigned, day_seed, options_of
 from game.errors import AnaError
+from game.world import load_building
+from game.world.placing import placed_anew
 from game.world.settings import MissionSettings
+from game.world.variant import Variant
 
 GIVEN = {
     "building": "harbour",
@@ -30,6 +34,33 @@ def test_the_options_define_the_mission() -> None:
     assert options.spec.level == 3
     assert options.settings.duration_ms == 90_000
     assert (options.seed, options.log_dir) == (7, Path("here"))
+
+
+def test_a_difficulty_is_a_set_of_settings_that_others_override() -> None:
+    options = options_of(**{**GIVEN, "difficulty": "hard", "minutes": 1})  # type: ignore[arg-type]
+    assert (options.settings.sight_radius, options.settings.duration_ms) == (4, 60_000)
+    assert len(options.building.victims) == 25
+    assert options.variant == Variant(difficulty="hard")
+
+
+def test_seeded_victims_move_with_the_seed() -> None:
+    options = options_of(**{**GIVEN, "victims": "seeded"})  # type: ignore[arg-type]
+    assert options.building == placed_anew(load_building("harbour"), 7)
+    following = options.again()
+    assert (following.seed, following.variant) == (8, options.variant)
+    assert following.building == placed_anew(load_building("harbour"), 8)
+
+
+def test_the_mission_of_the_day_comes_from_the_date() -> None:
+    now = datetime(2026, 11, 26, 1, 30, tzinfo=timezone(timedelta(hours=5)))
+    assert day_seed(now) == 20261125, "by Greenwich, so that it is one day for everybody"
+    day = {**GIVEN, "building": None, "seed": None, "today": True}
+    options = options_of(**day)  # type: ignore[arg-type]
+    assert options.seed == day_seed(datetime.now(UTC))
+    assert options.building == load_building(f"generated:{options.seed}")
+    drawn = options_of(**{**day, "building": "foundry"})  # type: ignore[arg-type]
+    assert drawn.variant.victims == "seeded"
+    assert drawn.building == placed_anew(load_building("foundry"), options.seed)
 
 
 def test_any_setting_can_be_set() -> None:
@@ -64,6 +95,8 @@ def test_a_bad_setting_is_named(assignment: str, told: str) -> None:
         (["--coach", "static", "--level", "4"], "Give 1, 2 or 3"),
         (["--preset", "litteral"], "Did you mean literal?"),
         (["--level", "1"], "--coach static"),
+        (["--today", "--seed", "3"], "--today: the seed of the mission of the day is the date"),
+        (["--difficulty", "harsh"], "easy"),
         (["--minutes", "0"], "--minutes: duration_ms"),
         (["--minuts", "1"], "--minutes"),
         ([], "not a terminal"),

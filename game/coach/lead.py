@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from game.coach.api import Briefing
 from game.coach.instructions import Scene
-from game.coach.route import RoutePlanner
 from game.world.building import Room, Severity
 from game.world.geometry import Cell
+from game.world.route import RoutePlanner
 
 GOAL_MS = 10_000
 """No goal is taken away from a rescuer and given back within this time."""

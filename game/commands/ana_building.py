@@ -45,7 +45,7 @@ def building_group() -> None:
 @click.argument("building")
 @_seed_option
 def show_building(building: str, seed: int) -> None:
-    """Draw BUILDING (a name or a file) with its room names, doors, victims and start."""
+    """Draw BUILDING (a name, generated:SEED or a file) with its rooms, doors, victims and start."""
     loaded = load_building(building, seed)
     coloured = _wants_colour()
     for row in _panels(loaded):
@@ -60,7 +60,7 @@ def show_building(building: str, seed: int) -> None:
 @click.argument("file")
 @_seed_option
 def check_building(file: str, seed: int) -> int:
-    """Check the building FILE: list every problem and how to fix it."""
+    """Check the building FILE, a name or generated:SEED: list every problem and how to fix it."""
     try:
         building = load_building(file, seed)
         problems = shortcomings(building, file, _top_line(file, building))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Literal, TypeVar, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import click
 import msgspec
@@ -18,7 +20,9 @@ from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.session.yoking import yoke_of
 from game.world import load_building
+from game.world.library import GENERATED
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import Difficulty, Variant, Victims, varied, with_demands
 
 DEFAULT_BUILDING = "harbour"
 MINUTE_MS = 60_000
@@ -31,10 +35,27 @@ def mission_options(command: _Command) -> _Command:
     options = (
         click.option(
             "--building",
-            default=DEFAULT_BUILDING,
-            show_default=True,
             metavar="NAME|PATH",
-            help="A building that comes with ana, or the path of your own file.",
+            help="A building that comes with ana, generated:SEED for one made from a seed, or the "
+            f"path of your own file.  [default: {DEFAULT_BUILDING}]",
+        ),
+        click.option(
+            "--victims",
+            type=click.Choice(get_args(Victims)),
+            help="Where the victims lie: as drawn, or where the seed puts them.  [default: drawn]",
+        ),
+        click.option(
+            "--difficulty",
+            type=click.Choice(get_args(Difficulty)),
+            default="standard",
+            show_default=True,
+            help="How many people there are, how long the mission lasts, and how far you see.",
+        ),
+        click.option(
+            "--today",
+            is_flag=True,
+            help="The mission of the day, the same for everybody: an office made from the date, or "
+            "in --building, victims placed by it.",
         ),
         click.option(
             "--coach",
@@ -78,9 +99,25 @@ def mission_options(command: _Command) -> _Command:
 
 @click.command(name="play")
 @mission_options
-def play(**given: Any) -> int:
+@click.option(
+    "--now", is_flag=True, help="Start the clock at once, without the page before the mission."
+)
+@click.option(
+    "--memorise",
+    type=click.IntRange(0, 3600),
+    default=0,
+    metavar="SECONDS",
+    help="Show the map with the rooms' names for so long first.",
+)
+@click.option(
+    "--text",
+    is_flag=True,
+    help="Play by typing lines and reading sentences, as with a screen reader; needs no screen.",
+)
+def play(now: bool, text: bool, memorise: int, **given: Any) -> int:
     """Play a mission now."""
-    return run_play(options_of(**given))
+    options = replace(options_of(**given), now=now, memorise_ms=1000 * memorise)
+    return play_in_text(options) if text else run_play(options)
 
 
 @click.command(name="replay")
@@ -90,8 +127,24 @@ def replay_journal(journal: Path) -> int:
     return run_replay(journal)
 
 
+def play_in_text(options: PlayOptions) -> int:
+    """Play a mission by the lines of the standard input."""
+    from game.screens.text.text_play import play_text, typed_lines
+
+    return play_text(
+        options.building,
+        options.settings,
+        options.spec,
+        options.seed,
+        options.log_dir,
+        typed_lines(),
+        sys.stdout,
+        memorise_ms=options.memorise_ms,
+    )
+
+
 def options_of(
-    building: str,
+    building: str | None,
     coach: str,
     preset: str | None,
     level: int | None,
@@ -100,13 +153,29 @@ def options_of(
     minutes: float | None,
     assignments: tuple[str, ...],
     levels_of: Path | None = None,
+    victims: Victims | None = None,
+    difficulty: Difficulty = "standard",
+    today: bool = False,
 ) -> PlayOptions:
     """The mission defined by `mission_options`. Raises AnaError, naming the option."""
-    settings = assigned(FREE_PLAY, assignments)
+    settings = assigned(with_demands(FREE_PLAY, difficulty), assignments)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
-    seed = int.from_bytes(os.urandom(4)) if seed is None else seed
-    plan = load_building(building, seed)
+    if today and seed is not None:
+        raise AnaError(
+            "the seed of the mission of the day is the date",
+            place="--today",
+            hint="Leave out --seed, or leave out --today.",
+        )
+    if today:
+        seed = day_seed(datetime.now(UTC))
+        victims = victims or ("drawn" if building is None else "seeded")
+        building = building or f"{GENERATED}:{seed}"
+    elif seed is None:
+        seed = int.from_bytes(os.urandom(4))
+    drawn = load_building(building or DEFAULT_BUILDING, seed)
+    variant = Variant(victims or "drawn", difficulty)
+    plan = varied(drawn, variant, seed)
     yoke = None if levels_of is None else yoke_of(levels_of, plan)
     return PlayOptions(
         building=plan,
@@ -114,7 +183,14 @@ def options_of(
         settings=settings,
         seed=seed,
         log_dir=log or sessions_folder(),
+        variant=variant,
+        drawn=drawn,
     )
+
+
+def day_seed(now: datetime) -> int:
+    """The seed of the mission of the day: 20261126 on 26 November 2026 (UTC)."""
+    return int(f"{now.astimezone(UTC):%Y%m%d}")
 
 
 def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:

@@ -17,6 +17,7 @@ from game.coach.presets import Preset
 from game.coach.spec import CoachSpec
 from game.world.events import MissionEvent
 from game.world.settings import MissionSettings
+from game.world.variant import USUAL, Variant
 
 SCHEMA_VERSION = 2
 """Changes with any change to what a line holds; `game.journal.upgrades` then reads the older."""
@@ -147,7 +148,10 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
 
     `building_text` is the whole building file and `building_sha256` its hash; `preset` is the
     coach's preset as it was then, None for a coach without one, and `assumed` the numbers of
-    one that judges what the rescuer knows.
+    one that judges what the rescuer knows. `variant` says how the building and the rules came to
+    differ from those drawn and usual; the text and the settings hold what came of it.
+    `memorised_ms` is how long the map with the rooms' names
+    was shown just before, in free play (a study records that as a phase of its own).
     """
 
     building: str
@@ -159,6 +163,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     seed: int
     rules_version: int
     assumed: Assumed | None = None
+    variant: Variant = USUAL
+    memorised_ms: int = 0
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

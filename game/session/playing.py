@@ -8,6 +8,8 @@ from pathlib import Path
 from secrets import token_hex
 from typing import Literal
 
+from msgspec import structs
+
 from game.coach.api import Briefing, Coach
 from game.coach.presets import Preset, preset
 from game.coach.spec import CoachSpec, assumed_of, build_coach
@@ -27,9 +29,30 @@ from game.session.run import MissionRun, Recorder
 from game.world.building import Building
 from game.world.mission import Mission
 from game.world.settings import MissionSettings
+from game.world.variant import USUAL, Variant
 
 CoachBuilder = Callable[[CoachSpec, Briefing], Coach]
 """Builds a coach from its description; pass another to play with a coach of your own."""
+
+
+def open_free_play(
+    settings: MissionSettings,
+    seed: int,
+    log_dir: Path,
+    terminal: Terminal | None,
+    *,
+    rescuer: str = PERSON,
+    clock: Clock | None = None,
+) -> Journal:
+    """A journal of free play in a new folder of `log_dir`, without a mission yet.
+
+    Raises JournalError if it cannot be written.
+    """
+    clock = clock or SystemClock()
+    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
+    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
+    opening = _free_play(session, settings, seed, terminal, rescuer)
+    return Journal.create(log_dir / session / JOURNAL, opening, clock)
 
 
 def start_free_play(
@@ -43,17 +66,26 @@ def start_free_play(
     rescuer: str = PERSON,
     clock: Clock | None = None,
     build: CoachBuilder = build_coach,
+    variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> tuple[MissionRun, Journal]:
-    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`.
+    """Begin a mission at 0 ms, with its journal in a new folder of `log_dir`. The map with names
+    was shown for `memorised_ms` before.
 
     Raises JournalError if the journal cannot be written.
     """
-    clock = clock or SystemClock()
-    began = datetime.fromtimestamp(clock.read().utc_ms / 1000, UTC)
-    session = f"{began:%Y%m%dT%H%M%SZ}-{token_hex(3)}"
-    opening = _free_play(session, settings, seed, terminal, rescuer)
-    journal = Journal.create(log_dir / session / JOURNAL, opening, clock)
-    return begin_mission(journal, building, settings, spec, seed, build=build), journal
+    journal = open_free_play(settings, seed, log_dir, terminal, rescuer=rescuer, clock=clock)
+    run = begin_mission(
+        journal,
+        building,
+        settings,
+        spec,
+        seed,
+        build=build,
+        variant=variant,
+        memorised_ms=memorised_ms,
+    )
+    return run, journal
 
 
 def start_in_memory(
@@ -84,6 +116,8 @@ def begin_mission(
     seed: int,
     *,
     build: CoachBuilder = build_coach,
+    variant: Variant = USUAL,
+    memorised_ms: int = 0,
 ) -> MissionRun:
     """Begin a mission at 0 ms in a journal that is already open.
 
@@ -92,13 +126,18 @@ def begin_mission(
     if journal.phase == "session":
         journal.enter("mission")
     run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    journal.append(mission_started(building, settings, spec, seed))
+    started = mission_started(building, settings, spec, seed, variant)
+    journal.append(structs.replace(started, memorised_ms=memorised_ms))
     run.begin()
     return run
 
 
 def mission_started(
-    building: Building, settings: MissionSettings, spec: CoachSpec, seed: int
+    building: Building,
+    settings: MissionSettings,
+    spec: CoachSpec,
+    seed: int,
+    variant: Variant = USUAL,
 ) -> MissionStarted:
     """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
@@ -111,6 +150,7 @@ def mission_started(
         seed=seed,
         rules_version=RULES_VERSION,
         assumed=assumed_of(spec),
+        variant=variant,
     )
 
 

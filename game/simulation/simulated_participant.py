@@ -58,6 +58,10 @@ class SimulatedParticipant:
         self._experiences: dict[int, Experience] = {}
         self._legs = 0
 
+    def come_back(self, session: StudySession) -> None:
+        """Take part in what is left of the session, after a break."""
+        self._session = session
+
     async def check(self, needed: ScreenSize) -> Preflighted:
         self._pass(5 * TICK_MS)
         terminal = Terminal("simulated", "", needed.columns, needed.rows)
@@ -118,9 +122,9 @@ class SimulatedParticipant:
             if task.goals is None:
                 task.tick(now_ms)
 
-        drive(run, person, passing=passing, done=lambda: task.done)
         if task.goals is None:
             self._experiences[self._round] = person.experience
+        drive(run, person, passing=passing, done=lambda: task.done)
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
         for question in self._asked(page, sheet):

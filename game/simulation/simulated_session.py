@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from game.journal.clock import SIMULATED_EPOCH_MS, VirtualClock
+from game.journal.folders import JOURNAL
 from game.journal.records import StudyMode
-from game.journal.sink import MemorySink
+from game.journal.sink import FileSink, MemorySink, Sink
 from game.rescuers.person import Population
+from game.simulation.dropped_line import AWAY_MS, DroppingClock, HungUp, drop_of
 from game.simulation.leaver import Leaver, pages_before_leaving
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.study.folder import LEDGER, Identity, Study
 from game.study.ledger import Ledger, LedgerEntry, SessionEnding, SlotTaken
 from game.study.protocol.conduct import Participant, conduct
-from game.study.protocol.study_session import open_session
+from game.study.protocol.study_session import StudySession, open_session, session_seed
 
 _NO_FOLDER = Path(os.devnull)
 """The folder of a session that is returned instead of written; there is nothing in it."""
@@ -35,35 +39,64 @@ def rescuer_name(population: Population) -> str:
 
 
 def play_session(study: Study, taken: SlotTaken, population: Population) -> bytes:
-    """The journal of one simulated participant with the slot `taken`; nothing is written.
+    """The journal of one simulated participant with the slot `taken`; nothing is left on the disk.
 
     It is the same for the same study, slot and population, wherever it is computed.
     """
-    clock, sink = VirtualClock(), MemorySink()
-    held = HeldStudy(
-        folder=_NO_FOLDER,
-        settings=study.settings,
-        copy=study.copy,
-        texts=study.texts,
-        forms=study.forms,
-        buildings=study.buildings,
-        practice=study.practice,
-        inputs=study.inputs,
-        taken=taken,
+    identity = Identity("simulated", taken.participant)
+    drop_ms = drop_of(session_seed(study, identity), population)
+    if drop_ms is None:
+        sink, clock = MemorySink(), VirtualClock()
+        held = _held(study, taken, _NO_FOLDER)
+        session = _opened(held, identity, population, clock, lambda _path: sink)
+        simulated = SimulatedParticipant(session, clock, population)
+        asyncio.run(conduct(session, _who_may_leave(simulated, session, population)))
+        return bytes(sink.data)
+    with TemporaryDirectory() as folder:
+        held = _held(study, taken, Path(folder))
+        _play_with_a_break(held, identity, population, DroppingClock(drop_ms))
+        return (held.home(identity) / JOURNAL).read_bytes()
+
+
+def _play_with_a_break(
+    held: HeldStudy, identity: Identity, population: Population, clock: DroppingClock
+) -> None:
+    """A session whose line drops, and which goes on once the participant has logged in again."""
+    session = _opened(held, identity, population, clock, FileSink.begin)
+    clock.hang_up = partial(session.journal.interrupt, "SIGHUP")
+    simulated = SimulatedParticipant(session, clock, population)
+    person = _who_may_leave(simulated, session, population)
+    try:
+        asyncio.run(conduct(session, person))
+    except HungUp:
+        clock.now_ms += AWAY_MS
+        again = _opened(held, identity, population, clock, FileSink.begin)
+        simulated.come_back(again)
+        asyncio.run(conduct(again, person))
+
+
+def _held(study: Study, taken: SlotTaken, folder: Path) -> HeldStudy:
+    parts = {part.name: getattr(study, part.name) for part in fields(Study)}
+    return HeldStudy(**{**parts, "folder": folder}, taken=taken)
+
+
+def _opened(
+    held: HeldStudy,
+    identity: Identity,
+    population: Population,
+    clock: VirtualClock,
+    sink: Callable[[Path], Sink],
+) -> StudySession:
+    return open_session(
+        held, identity, None, clock=clock, rescuer=rescuer_name(population), sink=sink
     )
-    session = open_session(
-        held,
-        Identity("simulated", taken.participant),
-        None,
-        clock=clock,
-        rescuer=rescuer_name(population),
-        sink=lambda _path: sink,
-    )
-    person: Participant = SimulatedParticipant(session, clock, population)
-    if (pages := pages_before_leaving(session, population)) is not None:
-        person = Leaver.of(person, pages)
-    asyncio.run(conduct(session, person))
-    return bytes(sink.data)
+
+
+def _who_may_leave(
+    person: SimulatedParticipant, session: StudySession, population: Population
+) -> Participant:
+    pages = pages_before_leaving(session, population)
+    return person if pages is None else Leaver.of(person, pages)
 
 
 class _HeldSlot(Ledger):

@@ -19,8 +19,9 @@ from game.world.events import LevelWish
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
-    "fault", "decline_title", "decline_text", "more_below", "too_long", "clock_stopped",
-    "mission_goes_on", "leave_now", "mark", "space", "write", "whole_number",
+    "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
+    "clock_stopped", "mission_goes_on", "leave_now",
+    "mark", "space", "write", "whole_number",
 )  # fmt: skip
 """Small words that they lack."""
 
@@ -159,6 +160,7 @@ class ScreenWords(_Part, frozen=True):
     decline_text: str
     more_below: str
     too_long: str
+    paste_too_long: str
     goodbye: Page
     preflight: Page
     too_small: str

@@ -6,7 +6,7 @@ everything that is wrong with it; `build` derives rooms, doors and victims from 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -116,13 +116,18 @@ def build(drawing: Drawing, text: str) -> Building:
         cells = drawing.region_of[mark.cells[0]]
         rooms.append(Room(mark.name, cells, label_cell(cells), doors_of(cells, doors)))
     rooms.sort(key=lambda room: (room.cells[0][1], room.cells[0][0]))
-    lying = sorted(drawing.victims, key=lambda victim: (victim[0][1], victim[0][0]))
-    victims = tuple(
-        VictimSite(f"v{number:02}", cell, severity)
-        for number, (cell, severity) in enumerate(lying, start=1)
-    )
+    victims = numbered(drawing.victims)
     start, heading = drawing.starts[0]
     return Building(drawing.name, drawing.plan, tuple(rooms), doors, victims, start, heading, text)
+
+
+def numbered(lying: Iterable[tuple[Cell, Severity]]) -> tuple[VictimSite, ...]:
+    """The victims with their ids: `v01`, `v02`, ... row by row over the plan."""
+    in_order = sorted(lying, key=lambda victim: (victim[0][1], victim[0][0]))
+    return tuple(
+        VictimSite(f"v{number:02}", cell, severity)
+        for number, (cell, severity) in enumerate(in_order, start=1)
+    )
 
 
 def survey(drawing: Drawing) -> tuple[Problem, ...]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from tests.bench.coach import coach_costs, coached_keys, mission_s, route_p99_ms
+from tests.bench.coach import coach_costs, coached_keys, mission_s, office_ms, route_p99_ms
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paints_ms, key_costs
 from tests.bench.simulation import missions_a_second, simulation_rates
 from tests.bench.ssh import PARTICIPANTS, at_once
@@ -55,6 +55,7 @@ def game(*options: str) -> list[str]:
         "-m",
         "game",
         "play",
+        "--now",
         "--seed",
         "1",
         "--log",
@@ -101,6 +102,13 @@ def coaching() -> Iterator[Figure]:
         yield Figure(f"headless mission, {name}", mission_s(name), "s", 0.3)
 
 
+def generating() -> Iterator[Figure]:
+    """Offices made from a seed."""
+    spent = sorted(map(office_ms, range(60)))
+    yield Figure("office from a seed, p50", spent[len(spent) // 2], "ms", 150)
+    yield Figure("office from a seed, slowest of 60", spent[-1], "ms", 300)
+
+
 def simulating() -> Iterator[Figure]:
     """Whole study sessions of simulated people on one core, journals written."""
     rates = simulation_rates()
@@ -131,6 +139,7 @@ PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "keys": keys,
     "opening": opening,
     "coaching": coaching,
+    "generating": generating,
     "simulating": simulating,
     "ssh": ssh,
 }

@@ -11,7 +11,6 @@ from statistics import quantiles
 
 from game.coach.acts import CoachRecord, GoalSet
 from game.coach.api import Briefing, Coach
-from game.coach.route import RoutePlanner
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.commands.ana_play import DEFAULT_BUILDING, assigned
 from game.rescuers.catalogue import character
@@ -22,7 +21,9 @@ from game.world import load_building
 from game.world.building import Building
 from game.world.events import Action, MissionEvent
 from game.world.floodfill import Floodfills
+from game.world.generation.office import generated
 from game.world.observation import Guidance, Observation
+from game.world.route import RoutePlanner
 from game.world.settings import MissionSettings
 
 SETTINGS = MissionSettings()
@@ -155,6 +156,13 @@ def mission_s(name: str) -> float:
     drive(run, reader(building))
     journal.close()
     return time.perf_counter() - start
+
+
+def office_ms(seed: int) -> float:
+    """Milliseconds to make the office of a seed."""
+    start = time.perf_counter()
+    generated(seed)
+    return 1000 * (time.perf_counter() - start)
 
 
 def _p99(samples: list[float]) -> float:

@@ -18,9 +18,9 @@ from game.coach.compliance import HEEDED_CELLS, NOTICE_MS, NOTICE_MS_PER_LETTER
 from game.coach.guide import ANOTHER_FIRST
 from game.coach.instructions.notices import WRONG_WAY
 from game.coach.lead import GOAL_MS
-from game.coach.route import Route, RoutePlanner
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted
+from game.world.route import Route, RoutePlanner
 from game.world.settings import FREE_PLAY, MissionSettings
 from tests.coach.scripted import (
     GALLERY,

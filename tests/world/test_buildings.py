@@ -10,7 +10,6 @@ from statistics import mean
 import pytest
 
 from game.cli import main
-from game.coach.route import RoutePlanner
 from game.errors import AnaError
 from game.study.folder import new_study, open_study
 from game.world import load_building
@@ -22,6 +21,7 @@ from game.world.library import shipped_buildings
 from game.world.picture import Ink, joined, picture
 from game.world.reading import parse_building
 from game.world.regions import reachable
+from game.world.route import RoutePlanner
 from game.world.settings import MissionSettings
 
 MISSION_BUILDINGS = ("harbour", "foundry")

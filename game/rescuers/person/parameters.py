@@ -147,7 +147,8 @@ class Population:
     `effect` multiplies everything that a mission does to answers: 0 plants no effect at all, 1 the
     effects of `game.rescuers.person.responses`. `noise` is the standard deviation of an answer
     around what the person means, in points of 1 to 100. `leaving` is the share of people who stop
-    taking part in a study, at some point after they have been given a place.
+    taking part in a study, at some point after they have been given a place, and `cut_off` that of
+    people whose line drops once and who log in again.
     """
 
     name: str
@@ -156,6 +157,7 @@ class Population:
     effect: float = 1.0
     noise: float = 9.0
     leaving: float = 0.0
+    cut_off: float = 0.0
 
 
 SIGNED = ("mood",)

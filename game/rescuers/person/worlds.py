@@ -26,6 +26,7 @@ NUMBERS: Mapping[str, tuple[float, float]] = {
     "effect": (0, 10),
     "noise": (0, 100),
     "leaving": (0, 1),
+    "cut_off": (0, 1),
 }
 """What a world says of its people as a whole, and between which numbers."""
 TABLES = ("typical", "spread")

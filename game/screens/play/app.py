@@ -9,9 +9,10 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, ClassVar
 
@@ -36,15 +37,19 @@ from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import USUAL, Variant, varied
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
     from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
+    from game.screens.play.lesson_screen import LessonOver
     from game.screens.play.live import LiveMission
+    from game.screens.play.map_screen import MapScreen
     from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
     from game.screens.play.replay_screen import ReplayScreen
     from game.screens.play.result import ResultScreen
+    from game.screens.play.start_screen import StartScreen
     from game.screens.play.watch_screen import WatchScreen
     from game.session.replay import Replay
 
@@ -60,6 +65,21 @@ class PlayOptions:
     seed: int
     log_dir: Path
     rescuer: str = "literal"
+    variant: Variant = USUAL
+    drawn: Building | None = None
+    """The building before the variant; None where they are the same."""
+    memorise_ms: int = 0
+    """For how long the map is shown first, to a person."""
+    now: bool = False
+    """Whether the clock starts at once, without the page before the mission."""
+
+    def again(self) -> PlayOptions:
+        """The next mission: the next seed, and what follows from it; the map is known by now."""
+        seed = self.seed + 1
+        building = self.building
+        if self.drawn is not None:
+            building = varied(self.drawn, self.variant, seed)
+        return replace(self, seed=seed, building=building, memorise_ms=0, now=False)
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -83,6 +103,7 @@ class AnaApp(Program, inherit_bindings=False):
         self._first = first
         self._options = options
         self.live: LiveMission | None = None
+        self._lessons: Generator[Screen[None]] | None = None
         self._been_home = False
         self._opened = False
 
@@ -153,7 +174,9 @@ class AnaApp(Program, inherit_bindings=False):
         self._remember(home.preferences)
         match message.what:
             case "play":
-                self.play_mission(self._chosen())
+                self.offer_mission(self._chosen())
+            case "tutorial":
+                self.teach()
             case "watch":
                 self.watch_mission(self._chosen())
             case "replay":
@@ -167,7 +190,8 @@ class AnaApp(Program, inherit_bindings=False):
                 self.exit()
 
     def _choose_journal(self) -> None:
-        from game.screens.play.journal_list import JournalsScreen, newest_journals
+        from game.screens.play.journal_list import JournalsScreen
+        from game.screens.play.past_missions import newest_journals
 
         journals = newest_journals(self._log_dir())
         self.push_screen(JournalsScreen(journals), self._replay_chosen)
@@ -202,13 +226,86 @@ class AnaApp(Program, inherit_bindings=False):
             settings,
             seed,
             self._log_dir(),
+            memorise_ms=1000 * self.preferences.memorise,
         )
+
+    # --- the tutorial ---------------------------------------------------------------------------
+
+    def teach(self) -> None:
+        """Go through the tutorial."""
+        from game.screens.play.tutorial import Tutorial
+        from game.screens.widgets.terminal import this_terminal
+
+        rules = self._options.settings if self._options else FREE_PLAY
+        tutorial = Tutorial(self._log_dir(), this_terminal(*self.size), rules)
+        self._lessons = tutorial.screens()
+        self._teach_on()
+
+    def on_lesson_over(self, message: LessonOver) -> None:
+        self.live = None
+        if message.go_on:
+            self._teach_on()
+        else:
+            self._stop_teaching()
+
+    def _teach_on(self) -> None:
+        from game.screens.play.tutorial import LegScreen
+
+        assert self._lessons is not None
+        try:
+            screen = next(self._lessons, None)
+        except AnaError as error:
+            self._say_or_fail("The tutorial cannot go on", error)
+            return
+        if screen is None:
+            self._stop_teaching()
+            return
+        self.live = screen.live if isinstance(screen, LegScreen) else None
+        self._replace(screen)
+
+    def _stop_teaching(self) -> None:
+        lessons, self._lessons = self._lessons, None
+        if lessons is not None:
+            lessons.close()
+        self._step_back()
 
     # --- missions -------------------------------------------------------------------------------
 
-    def play_mission(self, options: PlayOptions) -> None:
-        """A person plays."""
-        self._begin(options, lambda: self._mission(options))
+    def offer_mission(self, options: PlayOptions) -> None:
+        """What comes before a mission, and then the mission: the map, where it is wanted, and the
+        page that says what the mission is about."""
+        from game.screens.play.map_screen import MapScreen
+
+        self._options = options
+        if options.memorise_ms:
+            self._replace(MapScreen(options.building, options.memorise_ms))
+        else:
+            self._introduce(options)
+
+    def on_map_screen_seen(self, message: MapScreen.Seen) -> None:
+        if message.shown_ms is None:
+            self._step_back()
+        elif self._options is not None:
+            self._introduce(self._options, message.shown_ms)
+
+    def _introduce(self, options: PlayOptions, memorised_ms: int = 0) -> None:
+        from game.screens.play.start_screen import StartScreen
+
+        begin = partial(self.play_mission, options, memorised_ms)
+        if options.now:
+            begin()
+        else:
+            self._replace(StartScreen(options.building, options.settings, options.spec, begin))
+
+    def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
+        if message.what == "start":
+            message.begin()
+        else:
+            self._step_back()
+
+    def play_mission(self, options: PlayOptions, memorised_ms: int = 0) -> None:
+        """A person plays at once, who saw the map for so long before."""
+        self._begin(options, lambda: self._mission(options, memorised_ms))
 
     def watch_mission(self, options: PlayOptions) -> None:
         """A simulated rescuer plays."""
@@ -224,9 +321,9 @@ class AnaApp(Program, inherit_bindings=False):
         self.live = screen.live
         self._replace(screen)
 
-    def _mission(self, options: PlayOptions) -> MissionScreen:
+    def _mission(self, options: PlayOptions, memorised_ms: int) -> MissionScreen:
+        from game.screens.play.free_play_screen import FreePlayScreen
         from game.screens.play.live import LiveMission
-        from game.screens.play.mission_screen import MissionScreen
         from game.screens.widgets.terminal import this_terminal
         from game.session.playing import start_free_play
 
@@ -237,8 +334,10 @@ class AnaApp(Program, inherit_bindings=False):
             options.seed,
             options.log_dir,
             this_terminal(*self.size),
+            variant=options.variant,
+            memorised_ms=memorised_ms,
         )
-        return MissionScreen(LiveMission(run, journal), _path(journal))
+        return FreePlayScreen(LiveMission(run, journal), _path(journal))
 
     def _watching(self, options: PlayOptions) -> WatchScreen:
         from game.rescuers.catalogue import character
@@ -258,6 +357,7 @@ class AnaApp(Program, inherit_bindings=False):
             this_terminal(*self.size),
             rescuer=who.name,
             build=OverheardCoach.build,
+            variant=options.variant,
         )
         coach = run.coach
         assert isinstance(coach, OverheardCoach)
@@ -284,12 +384,31 @@ class AnaApp(Program, inherit_bindings=False):
             self._step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
+        result = message.sender
         if message.what == "again" and self._options is not None:
-            self.play_mission(replace(self._options, seed=self._options.seed + 1))
+            self.offer_mission(self._options.again())
         elif message.what == "replay":
-            self.replay(message.journal)
+            self.replay(result.journal)
+        elif message.what == "card":
+            self._make_card(result)
         else:
             self.show_home()
+
+    def _make_card(self, result: ResultScreen) -> None:
+        """Copy a result to the clipboard, and write it beside its journal."""
+        from game.screens.play.result_card import card_svg, card_text
+        from game.screens.widgets.dialogs import Notice
+
+        text, folder = card_text(result.story), result.journal.parent
+        self.copy_to_clipboard(text)
+        try:
+            (folder / "card.txt").write_text(text + "\n", encoding="utf-8")
+            (folder / "card.svg").write_text(card_svg(result.story), encoding="utf-8")
+            told = f"Also as card.txt and as a picture, card.svg, in\n{folder}"
+        except OSError as error:
+            told = f"It could not be written to {folder} ({error.strerror})."
+        title = "Copied, if your terminal allows it"
+        self.push_screen(Notice(title, f"{text}\n\n{told}", key="Back", wide=True))
 
     # --- replay ---------------------------------------------------------------------------------
 
@@ -347,11 +466,17 @@ class AnaApp(Program, inherit_bindings=False):
         else:
             self.push_screen(screen)
 
+    @property
+    def _at_start(self) -> bool:
+        from game.screens.play.start_screen import StartScreen
+
+        return isinstance(self.screen, StartScreen)
+
     def _say_or_fail(self, title: str, error: AnaError) -> None:
         """Tell of an error where the user can go on from; leave with it where nothing is shown."""
         from game.screens.widgets.dialogs import Notice
 
-        if len(self.screen_stack) > 1:
+        if len(self.screen_stack) > 1 and (self._been_home or not self._at_start):
             self.push_screen(Notice(title, str(error), key="Back"))
         else:
             self.failure = error
@@ -371,8 +496,8 @@ def run_home() -> int:
 
 
 def run_play(options: PlayOptions) -> int:
-    """Play a mission at once, and go on from there."""
-    return _run(AnaApp(lambda app: app.play_mission(options), options))
+    """Play a mission, and go on from there."""
+    return _run(AnaApp(lambda app: app.offer_mission(options), options))
 
 
 def run_watch(options: PlayOptions) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -22,6 +22,7 @@ _LETTERS = (
     "█▄▄▄█  █ █ █  █▄▄▄█",
     "█   █  █  ▀█  █   █",
 )
+_BELOW_ROWS = 1
 _SUBTITLE = "a guided rescue"
 _SCENE = (
     "#################+#################",
@@ -46,6 +47,7 @@ COACHES = (
     ("static-2", "by doors and hallways (C2)"),
     ("static-3", "by room names (C3)"),
 )
+MEMORISING = ((0, "no"), (60, "for one minute"), (180, "for three minutes"))
 
 
 class Item(NamedTuple):
@@ -72,6 +74,8 @@ def menu_items(preferences: Preferences) -> tuple[Item, ...]:
         Item("play", "Play"),
         Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
+        Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
+        Item("tutorial", "Tutorial, three minutes"),
         Item("watch", "Watch a simulated rescuer"),
         Item("replay", "Replay a mission"),
         Item("howto", "How to play"),
@@ -105,11 +109,14 @@ class HomePage(Canvas):
         self._items, self._selected = items, selected
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
         columns = self.size.width
-        title: list[Row] = [((line, "letters"),) for line in _LETTERS]
-        block = [
-            *title, ((_SUBTITLE, "subtitle"),), BLANK, *scene_rows(glyphs), BLANK,
-            *menu_rows(items, selected),
-        ]  # fmt: skip
+        title: list[Row] = [
+            *(((line, "letters"),) for line in _LETTERS),
+            ((_SUBTITLE, "subtitle"),),
+        ]
+        scene, menu = [BLANK, *scene_rows(glyphs)], [BLANK, *menu_rows(items, selected)]
+        room = self.app.size.height - _BELOW_ROWS
+        fits = len(title) + len(scene) + len(menu) <= room
+        block = [*title, *(scene if fits else ()), *menu]
         self.draw([centred(row, columns) if width(row) else row for row in block])
 
     def on_resize(self) -> None:
@@ -165,13 +172,9 @@ class HomeScreen(Screen[None]):
 
     def action_change(self, way: int) -> None:
         item = menu_items(self.preferences)[self._selected].action
-        if item == "building":
-            building = _next(BUILDINGS, self.preferences.building, way)
-            self.preferences = self.preferences.replaced(building=building)
-        elif item == "coach":
-            names = tuple(name for name, _ in COACHES)
-            coach = _next(names, self.preferences.coach, way)
-            self.preferences = self.preferences.replaced(coach=coach)
+        if item in _CHOICES:
+            wanted = _next(_CHOICES[item], getattr(self.preferences, item), way)
+            self.preferences = self.preferences.replaced(**{item: wanted})
         self._show()
 
     def action_choose(self) -> None:
@@ -185,5 +188,13 @@ class HomeScreen(Screen[None]):
         self.app.post_message(self.Wanted(what, self))
 
 
-def _next(names: Sequence[str], name: str, way: int) -> str:
+_CHOICES: dict[str, Sequence[Any]] = {
+    "building": BUILDINGS,
+    "coach": [name for name, _ in COACHES],
+    "memorise": [seconds for seconds, _ in MEMORISING],
+}
+"""What can be chosen, by the menu's item and the preference of the same name."""
+
+
+def _next(names: Sequence[Any], name: object, way: int) -> Any:
     return names[(names.index(name) + way) % len(names)]

@@ -13,7 +13,6 @@ from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
 from game.errors import AnaError
-from game.journal.folders import JOURNAL
 from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.screens.play.mission_story import coach_name
@@ -21,12 +20,6 @@ from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
 
 LISTED = 200
-
-
-def newest_journals(folder: Path) -> tuple[Path, ...]:
-    """The journals of free play in `folder`, the newest first."""
-    found = {path: path.stat().st_mtime for path in folder.glob(f"*/{JOURNAL}")}
-    return tuple(sorted(found, key=lambda path: -found[path]))[:LISTED]
 
 
 @lru_cache(maxsize=LISTED)
@@ -40,6 +33,8 @@ def journal_text(path: Path) -> str:
     if not played:
         return "no mission"
     first = played[0]
+    if first.step.phase == "practice":
+        return "tutorial"
     rescued = sum(fate == "rescued" for fate, _ in first.fates.values())
     parts = [first.started.building, coach_name(first.started.coach), f"{rescued} rescued"]
     if first.end == "abandoned":

@@ -196,7 +196,11 @@ class LiveScreen(Screen[None]):
             self._over = False
             self._fail(error)
             return
-        self.app.post_message(Finished(self.journal, complete=complete))
+        self.app.post_message(self.over(complete=complete))
+
+    def over(self, *, complete: bool) -> Message:
+        """What the program is told when the mission is over and recorded."""
+        return Finished(self.journal, complete=complete)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         match action:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Final
 
 from game.screens.play.mission_story import MissionStory
@@ -19,13 +20,19 @@ from game.screens.widgets.minimap import (
     map_size,
 )
 from game.world.building import Severity, VictimSite
-from game.world.geometry import Cell
+from game.world.geometry import Cell, Heading
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
 from game.world.labels import label_lines
 from game.world.observation import VictimState
 from game.world.plan import Tile
 
-TRAIL = "trail"
+STAGES = 4
+"""So many parts of the mission's time are told apart on the way, the latest the strongest."""
+TRAILS = tuple(f"trail-{stage}" for stage in range(STAGES))
+_ARROW_INKS = ("early", "early", "late", "late")
+"""What an arrow on each of them is drawn in."""
+_ARROW_EVERY = 12
+"""Along the way so many steps have one arrow."""
 _DOT_EVERY = 4
 """Along a wall so many characters of it have one dot."""
 END: Final[Pin] = "■", "here/here"
@@ -43,7 +50,8 @@ class _WalkedQuarters:
         if text.isspace():
             return QUARTER_BLOCKS.character(ground, left, top)
         wall, _, paper = style.partition("/")
-        return text, style if paper.endswith("door") else f"{wall}/{TRAIL}"
+        trail = max(ground.tints.get(cell, "") for cell in _cells(self, left, top))
+        return text, style if paper.endswith("door") else f"{wall}/{trail}"
 
 
 def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
@@ -64,32 +72,78 @@ def path_map(story: MissionStory, *, columns: int, filled: bool) -> list[Row]:
     building, plan = story.building, story.building.plan
     named = map_size(plan, HALF_BLOCKS)[0] <= columns
     scale: Scale = HALF_BLOCKS if named else _WalkedQuarters()
-    pins = {} if filled else _dots(story, scale)
+    trails = _trails(story)
+    pins = {} if filled else _dots(story, scale, trails)
+    pins |= _arrows(story, scale, trails, filled=filled)
     if named:
         pins |= _names(story)
-    for victim in building.victims:
+    for victim in (it for it in building.victims if it.id in story.revealed):
         pins[victim.cell] = victim_pin(victim, story.fates[victim.id].state)
     pins[story.path[-1]] = END
     pins[building.start] = HEADING_ARROWS[building.start_heading], "here/here"
-    walked = (cell for cell in story.path if plan.tile(cell) is Tile.FLOOR)
-    tints = dict.fromkeys(walked, TRAIL) if filled else NO_TINTS
+    tints = trails if filled else NO_TINTS
     everything = (1 << len(plan.tiles)) - 1
     return SmallMap(plan, scale, tints, signs=not filled).rows(everything, pins)
 
 
-def legend_row(story: MissionStory) -> Row:
-    """What the signs of the beginning and the end mean."""
+def stage(story: MissionStory, at_ms: int) -> int:
+    """The part of the mission's time that a moment lies in, from 0."""
+    return min(STAGES - 1, STAGES * at_ms // max(1, story.settings.duration_ms))
+
+
+def _trails(story: MissionStory) -> dict[Cell, str]:
+    """The floor that was walked, each cell in the style of when it was walked last."""
+    plan = story.building.plan
+    return {
+        cell: TRAILS[stage(story, at_ms)]
+        for cell, at_ms in zip(story.path, story.walked_ms, strict=True)
+        if plan.tile(cell) is Tile.FLOOR
+    }
+
+
+def _arrows(
+    story: MissionStory, scale: Scale, trails: Mapping[Cell, str], *, filled: bool
+) -> dict[Cell, Pin]:
+    """Arrows along the way, where a character holds nothing but floor, each the way that led on
+    when the cell was walked last."""
+    plan = story.building.plan
+    last = {cell: step for step, cell in enumerate(story.path)}
+    arrows: dict[Cell, Pin] = {}
+    since = _ARROW_EVERY // 2
+    for step, (cell, after) in enumerate(pairwise(story.path)):
+        since += 1
+        if since < _ARROW_EVERY or last[cell] != step or cell not in trails:
+            continue
+        first = cell[0] - cell[0] % scale.across, cell[1] - cell[1] % scale.down
+        if {plan.tile(it) for it in _cells(scale, *first) if it in plan} != {Tile.FLOOR}:
+            continue
+        way = next((way for way in Heading if way.from_cell(cell) == after), None)
+        if way is None:
+            continue
+        trail = trails[cell]
+        ink = f"{_ARROW_INKS[TRAILS.index(trail)]}/{trail}" if filled else trail
+        arrows[first] = HEADING_ARROWS[way], ink
+        since = 0
+    return arrows
+
+
+def legend_row(story: MissionStory, *, filled: bool) -> Row:
+    """What the signs of the beginning and the end mean, and the colours of the way."""
     start = HEADING_ARROWS[story.building.start_heading], "here/here"
     began: Row = (start, (" where you started", "quiet"))
     if story.path[-1] == story.building.start:
         return began
-    return (*began, ("   ", ""), END, (" where you finished", "quiet"))
+    ended: Row = (*began, ("   ", ""), END, (" where you finished", "quiet"))
+    if not filled:
+        return ended
+    time = tuple(("  ", f"{trail}/{trail}") for trail in TRAILS)
+    return (*ended, ("   ", ""), *time, (" earlier to later", "quiet"))
 
 
 def _names(story: MissionStory) -> dict[Cell, Pin]:
     """The letters of the rooms' names, each at the upper cell of its character."""
     building = story.building
-    taken = {victim.cell for victim in building.victims}
+    taken = {victim.cell for victim in building.victims if victim.id in story.revealed}
     pins: dict[Cell, Pin] = {}
     for room in building.rooms:
         free = tuple(cell for cell in room.cells if cell not in taken)
@@ -105,7 +159,7 @@ def _cells(scale: Scale, left: int, top: int) -> Iterator[Cell]:
             yield x, y
 
 
-def _dots(story: MissionStory, scale: Scale) -> dict[Cell, Pin]:
+def _dots(story: MissionStory, scale: Scale, trails: Mapping[Cell, str]) -> dict[Cell, Pin]:
     """Dots along the way, each at the first cell of its character: so few on walls that these can
     still be seen, and none on doors."""
     plan = story.building.plan
@@ -118,6 +172,6 @@ def _dots(story: MissionStory, scale: Scale) -> dict[Cell, Pin]:
         last, since = first, since + 1
         tiles = {plan.tile(cell) for cell in _cells(scale, *first) if cell in plan}
         if tiles == {Tile.FLOOR} or (Tile.DOOR not in tiles and since >= _DOT_EVERY):
-            dots[first] = "•", TRAIL
+            dots[first] = "•", trails.get((x, y), TRAILS[0])
             since = 0
     return dots

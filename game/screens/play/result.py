@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from time import monotonic
 from typing import ClassVar
 
-from textual import events
+from textual import events, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.message import Message
 from textual.screen import Screen
 
+from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
+from game.screens.play.past_missions import (
+    newest_journals,
+    past_mission,
+    past_missions,
+    standing,
+)
 from game.screens.play.pathmap import legend_row, path_map, victim_pin
-from game.screens.widgets.canvas import BLANK, Canvas, Row, beside, width
+from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside, width, wrapped
 from game.screens.widgets.charts import area_chart, step_chart
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.minimap import PIN_STYLES, STYLES
@@ -22,8 +31,9 @@ from game.screens.widgets.statuspanel import clock_text
 from game.world.building import Severity
 from game.world.observation import VictimState
 
-DEAF_S = 0.8
-"""For so long keys do nothing, since the last ones were meant for the mission."""
+STILL_S = 0.5
+"""Keys do nothing until there were none for so long, since the last ones were meant for the
+mission."""
 NARROWEST_CHART = 26
 HIGHEST_CHART = 24
 _LOW_CHART = 5
@@ -33,8 +43,9 @@ _LEVEL_ROWS = ((9, 3), (16, 5), (30, 7))
 _FRAME_ROWS = 3
 """What a chart takes besides its lines: title, axis and times."""
 _FATE_COLUMNS = 31
-_BELOW_ROWS = 2
-"""What stands under the page: where the journal is, and the keys."""
+_AROUND_ROWS = 2
+"""What stands around the page: the names of the pages, and the keys."""
+_MARGIN_COLUMNS = 3
 _WAITING = VictimState.WAITING
 _NAMES = {1: "C1", 2: "C2", 3: "C3"}
 
@@ -89,8 +100,10 @@ def total_rows(story: MissionStory) -> list[Row]:
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
     left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
-    where = f"{story.building.name} · "
-    return [first, ((left, "big"), (where + told, "quiet"))]
+    if len(story.revealed) < total:
+        told = "The victims you had not seen are not shown, so that you can play it as new."
+    where = ", ".join(filter(None, (story.building.name, story.unusual)))
+    return [first, ((left, "big"), (f"{where} · {told}", "quiet"))]
 
 
 def fate_rows(story: MissionStory, columns: int) -> list[Row]:
@@ -98,11 +111,11 @@ def fate_rows(story: MissionStory, columns: int) -> list[Row]:
     as many columns as fit."""
     order = (VictimState.RESCUED, VictimState.EXPIRED, VictimState.WAITING)
     fates = sorted(
-        story.fates.values(),
+        (fate for fate in story.fates.values() if fate.victim.id in story.revealed),
         key=lambda fate: (order.index(fate.state), fate.at_ms or 0, fate.victim.id),
     )
     across = max(1, columns // _FATE_COLUMNS)
-    down = -(-len(fates) // across)
+    down = -(-len(fates) // across) or 1
     rows: list[Row] = []
     for first in range(0, len(fates), down):
         lines = [
@@ -126,28 +139,98 @@ def _fate_row(story: MissionStory, fate: Fate, columns: int) -> Row:
     )  # fmt: skip
 
 
-def result_rows(story: MissionStory, columns: int, rows: int, *, filled: bool) -> list[Row]:
-    """The whole page, `columns` wide; what matters most is within the first `rows`."""
-    area = [*path_map(story, columns=columns, filled=filled), legend_row(story)]
-    area_columns = max(map(width, area)) + 2
-    head = [BLANK, *total_rows(story), BLANK]
+def result_rows(
+    story: MissionStory,
+    columns: int,
+    rows: int,
+    *,
+    filled: bool,
+    remarks: Sequence[Row] = (),
+) -> list[Row]:
+    """The first page, `columns` wide, within `rows` wherever they can hold it; `remarks` stand
+    under the totals. Where the way walked does not fit, it has a page of its own."""
+    head = [*total_rows(story), *remarks]
+    area = fitting_way(story, columns, rows - len(head), filled=filled)
     constant = constant_level(story)
+    if area is None:
+        lines = max(3, rows - len(head) - 2 - _FRAME_ROWS)
+        return [BLANK, *head, BLANK, *_charts(story, columns, lines, constant)]
+    area_columns = max(map(width, area)) + 2
     wide = columns - area_columns
-    if wide >= NARROWEST_CHART:
-        right = _beside_the_map(story, wide, rows - len(head), constant)
-        left = area if constant else [*area, BLANK, *fate_rows(story, area_columns - 2)]
-        return head + beside(left, right, area_columns)
+    if wide < NARROWEST_CHART:
+        lines = rows - len(head) - len(area) - _FRAME_ROWS
+        return [*head, *area, *_charts(story, columns, lines, constant)]
+    if len(head) + len(area) + 2 <= rows:
+        head = [BLANK, *head, BLANK]
+    lines = rows - len(head)
+    more = said_rows(story, area_columns - 2) if constant else fate_rows(story, area_columns - 2)
+    left = [*area, BLANK, *more][:lines]
+    right = _beside_the_map(story, wide, lines, constant)[:lines]
+    return head + beside(left, right, area_columns)
+
+
+def way_rows(story: MissionStory, columns: int, *, filled: bool) -> list[Row]:
+    """The map with the way walked, and what its signs mean."""
+    way = path_map(story, columns=columns, filled=filled)
+    return [*way, legend_row(story, filled=filled)]
+
+
+def fitting_way(story: MissionStory, columns: int, rows: int, *, filled: bool) -> list[Row] | None:
+    """The map as it stands on the first page, with charts beside it or below it: with names if
+    that fits, else smaller, else not at all."""
+    for most in (columns, min(columns, story.building.plan.width - 1)):
+        area = way_rows(story, most, filled=filled)
+        beside_it = columns - max(map(width, area)) - 2 >= NARROWEST_CHART
+        if len(area) + (0 if beside_it else _LOW_CHART + _FRAME_ROWS) <= rows:
+            return area
+    return None
+
+
+def _charts(story: MissionStory, columns: int, lines: int, constant: Row | None) -> list[Row]:
+    """Both charts side by side, `lines` high without title and axis; where the level is
+    `constant`, the rescues one by one in place of its chart."""
+    lines = min(HIGHEST_CHART, lines)
     if constant is not None:
         across = max(1, (columns - NARROWEST_CHART - 1) // _FATE_COLUMNS)
         wide = columns - across * _FATE_COLUMNS
-        chart = [*rescue_chart(story, wide - 2, _LOW_CHART), BLANK, constant]
-        lower = beside(chart, fate_rows(story, columns - wide), wide)
-        return [*head[1:], *area, *lower]
+        chart = [*rescue_chart(story, wide - 2, max(3, lines - 2)), BLANK, constant]
+        return beside(chart, fate_rows(story, columns - wide)[: lines + _FRAME_ROWS], wide)
     half = columns // 2
-    charts = beside(
-        rescue_chart(story, half - 2, _LOW_CHART), level_chart(story, half - 1, _LOW_CHART), half
-    )
-    return [*head[1:], *area, *charts, BLANK, *fate_rows(story, columns)]
+    return beside(rescue_chart(story, half - 2, lines), level_chart(story, half - 1, lines), half)
+
+
+def said_rows(story: MissionStory, columns: int) -> list[Row]:
+    """What stood on the bar, when, and at which level."""
+    rows: list[Row] = []
+    for said in story.said:
+        at, level = f"{clock_text(said.at_ms):>5}  ", f"{_NAMES[said.level]}  "
+        lines = wrapped(said.text, max(20, columns - len(at) - len(level)))
+        if said.notice:
+            rows.append(((at, "quiet"), (" " * len(level), ""), (said.notice, "notice")))
+            at = " " * len(at)
+        for line in lines:
+            rows.append(((at, "quiet"), (level, "quiet"), (line, "strong")))
+            at, level = " " * len(at), " " * len(level)
+    return rows or [(("The coach said nothing.", "quiet"),)]
+
+
+def result_pages(
+    story: MissionStory,
+    columns: int,
+    rows: int,
+    *,
+    filled: bool,
+    remarks: Sequence[Row] = (),
+) -> dict[str, list[Row]]:
+    """All pages by name; the first holds what matters most."""
+    first = result_rows(story, columns, rows, filled=filled, remarks=remarks)
+    pages = {"Result": first}
+    left = rows - len(total_rows(story)) - len(remarks)
+    if fitting_way(story, columns, left, filled=filled) is None:
+        pages["Way"] = way_rows(story, columns, filled=filled)
+    pages["People"] = [BLANK, *fate_rows(story, columns)]
+    pages["Said"] = [BLANK, *said_rows(story, columns)]
+    return pages
 
 
 def _beside_the_map(story: MissionStory, wide: int, rows: int, constant: Row | None) -> list[Row]:
@@ -164,60 +247,144 @@ def _beside_the_map(story: MissionStory, wide: int, rows: int, constant: Row | N
 
 
 class ResultPage(Canvas):
-    """The page as a widget."""
+    """One of the pages as a widget."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        *STYLES, *PIN_STYLES, "title", "quiet", "strong", "faint", "line", "area", "big",
+        *STYLES, *PIN_STYLES, "title", "quiet", "strong", "faint", "line", "area", "big", "notice",
     }  # fmt: skip
 
-    def __init__(self, story: MissionStory) -> None:
-        super().__init__()
-        self._story = story
 
-    def on_resize(self, event: events.Resize) -> None:
-        filled = not self.app.native_ansi_color
-        rows = self.screen.size.height - _BELOW_ROWS
-        self.draw(result_rows(self._story, event.size.width, rows, filled=filled))
+class PageNames(Canvas):
+    """The names of the pages, of which one is shown, and as much of the end of the journal's path
+    as fits."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {"item", "selected"}
+
+    def __init__(self, journal: Path) -> None:
+        super().__init__(id="page-names")
+        self._journal = str(journal)
+
+    def show(self, names: Sequence[str], shown: str) -> None:
+        """Let the name of the page that is shown stand out."""
+        row: list[Run] = [("  ", "item")]
+        for name in names:
+            row += [(f" {name} ", "selected" if name == shown else "item"), (" ", "item")]
+        room = self.size.width - width(tuple(row)) - 2
+        path = self._journal if len(self._journal) <= room else f"…{self._journal[1 - room :]}"
+        row.append((f"{path:>{max(0, room)}}", "item"))
+        self.draw([tuple(row)])
 
 
 class ResultScreen(Screen[None]):
-    """Shows a finished mission and where its journal is."""
+    """Shows a finished mission on a few pages: totals and charts, the way, people, words."""
 
     class Wanted(Message):
-        """What to do next: `again`, `replay` or `home`."""
+        """What to do next: `again`, `replay`, `card` or `home`."""
 
-        def __init__(self, what: str, journal: Path) -> None:
+        def __init__(self, what: str, sender: ResultScreen) -> None:
             super().__init__()
             self.what = what
-            self.journal = journal
+            self.sender = sender
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter,a,A", "want('again')", "Play again", id="result.again"),
         Binding("r,R", "want('replay')", "Replay this", id="result.replay"),
-        Binding("escape,q,Q,h,H", "want('home')", "Home", id="result.home"),
+        Binding("c,C", "want('card')", "Card", id="result.card"),
+        Binding("escape,q,Q,h,H,ctrl+q,ctrl+c", "want('home')", "Home", id="result.home"),
+        Binding("right,tab", "turn(1)", "Next page", id="result.next"),
+        Binding("left,shift+tab", "turn(-1)", "Page before", id="result.before"),
+        Binding("down,j", "scroll(1)", id="result.down"),
+        Binding("up,k", "scroll(-1)", id="result.up"),
+        Binding("pagedown,space", "scroll(10)", id="result.page_down"),
+        Binding("pageup", "scroll(-10)", id="result.page_up"),
     ]
 
     def __init__(self, story: MissionStory, journal: Path) -> None:
         super().__init__()
-        self._story = story
-        self._journal = journal
-        self._deaf = True
+        self.story = story
+        self.journal = journal
+        self._heard_s = 0.0
+        self._awake = False
+        self._standing = ""
+        self._literal: int | None = None
+        self._shown = "Result"
+        self._names = PageNames(journal)
+        self._page = ResultPage()
+        self._keys = KeyLine(id="keys")
 
     def compose(self) -> ComposeResult:
-        with VerticalScroll(classes="page"):
-            yield ResultPage(self._story)
-        yield Canvas([((f" Journal: {self._journal}", ""),)], id="where")
-        yield KeyLine(
-            ("Enter", "play again"), ("R", "replay this"), ("H", "home"), ("↑ ↓", "scroll"),
-            id="keys",
-        )  # fmt: skip
+        yield self._names
+        with VerticalScroll(classes="page", can_focus=False):
+            yield self._page
+        yield self._keys
 
     def on_mount(self) -> None:
-        self.set_timer(DEAF_S, self._listen)
+        self._heard_s = monotonic()
+        self._look_around()
 
-    def _listen(self) -> None:
-        self._deaf = False
+    def on_resize(self) -> None:
+        self._show()
+
+    @work(thread=True, group="standing")
+    def _look_around(self) -> None:
+        """Compare with what was played before, and with a literal reader."""
+        now = past_mission(self.journal)
+        if now is not None:
+            told = standing(now, past_missions(newest_journals(self.journal.parent.parent)))
+            self.app.call_from_thread(self._compare, told, None)
+        story = self.story
+        rescued = literal_rescues(story.building, story.settings, story.spec, story.seed)
+        self.app.call_from_thread(self._compare, None, rescued)
+
+    def _compare(self, told: str | None, literal: int | None) -> None:
+        self._standing = self._standing if told is None else told
+        self._literal = self._literal if literal is None else literal
+        if self.is_attached:
+            self._show()
+
+    def _remarks(self, columns: int) -> list[Row]:
+        reader = "" if self._literal is None else f"A literal reader rescues {self._literal}."
+        told = wrapped(f"{self._standing} {reader}".strip(), columns)
+        return [((line, "strong"),) for line in told or [""]]
+
+    def _pages(self) -> dict[str, list[Row]]:
+        columns = max(20, self.size.width - _MARGIN_COLUMNS)
+        rows = self.size.height - _AROUND_ROWS
+        filled = not self.app.native_ansi_color
+        return result_pages(
+            self.story, columns, rows, filled=filled, remarks=self._remarks(columns)
+        )
+
+    def _show(self) -> None:
+        pages = self._pages()
+        if self._shown not in pages:
+            self._shown = next(iter(pages))
+        self._names.show(list(pages), self._shown)
+        self._page.draw(pages[self._shown])
+        more = len(pages[self._shown]) > self.size.height - _AROUND_ROWS
+        scroll = [("↑ ↓", "scroll")] if more else []
+        self._keys.set_keys(
+            ("Enter", "play again"), ("R", "replay"), ("C", "card"), ("← →", "pages"), *scroll,
+            ("H", "home"),
+        )  # fmt: skip
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        return self._awake
+
+    def on_key(self, _event: events.Key) -> None:
+        """Every key comes by here before it acts; one that comes too early does nothing."""
+        now_s = monotonic()
+        self._awake = self._awake or now_s - self._heard_s >= STILL_S
+        self._heard_s = now_s
 
     def action_want(self, what: str) -> None:
-        if not self._deaf:
-            self.app.post_message(self.Wanted(what, self._journal))
+        self.app.post_message(self.Wanted(what, self))
+
+    def action_turn(self, way: int) -> None:
+        names = list(self._pages())
+        self._shown = names[(names.index(self._shown) + way) % len(names)]
+        self._show()
+        self.query_one(VerticalScroll).scroll_home(animate=False)
+
+    def action_scroll(self, rows: int) -> None:
+        self.query_one(VerticalScroll).scroll_relative(y=rows, animate=False)

@@ -47,7 +47,7 @@ class StudyApp(Program, inherit_bindings=False):
     ]
 
     def __init__(self, study: Study, identity: Identity) -> None:
-        super().__init__()
+        super().__init__(look=study.settings.screen.look)
         self.study = study
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)

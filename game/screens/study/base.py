@@ -11,14 +11,13 @@ from typing import ClassVar, Generic, TypeVar
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical, VerticalScroll
-from textual.content import Content
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Static
 
 from game.errors import AnaError
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.prose import body, heading
 from game.study.study_settings import ScreenSize
 from game.study.texts import Page, ScreenWords
 
@@ -160,17 +159,3 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
     def _stopped(self, stop: bool | None) -> None:
         if stop:
             self.finish(None)
-
-
-def heading(page: Page) -> Static:
-    """A page's title."""
-    return Static(page.title, classes="title", markup=False)
-
-
-def body(page: Page) -> Static:
-    """A page's text; what stands between two pairs of asterisks stands out."""
-    plain, *rest = page.body.strip().split("**")
-    parts: list[str | tuple[str, str]] = [plain]
-    for number, part in enumerate(rest):
-        parts.append((part, "bold $primary") if number % 2 == 0 else part)
-    return Static(Content.assemble(*parts), classes="body")

@@ -20,7 +20,7 @@ from game.forms.items import (
     TextItem,
 )
 from game.screens.study.base import Frame, StudyScreen, TextColumn
-from game.screens.study.question_rows import Look, item_rows
+from game.screens.study.question_rows import AnswerLook, item_rows
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Sheet
@@ -52,13 +52,13 @@ class Questions(Canvas):
         self.spans: dict[str, range] = {}
         """The rows of each question that is shown."""
 
-    def show(self, items: Sequence[Item], looks: dict[str, Look]) -> None:
+    def show(self, items: Sequence[Item], looks: dict[str, AnswerLook]) -> None:
         """Draw the items, and each question as it looks."""
         rows: list[Row] = []
         self.spans = {}
         for item in items:
             if isinstance(item, HeadingItem):
-                rows += [*item_rows(item, Look(), self.size.width), BLANK]
+                rows += [*item_rows(item, AnswerLook(), self.size.width), BLANK]
                 continue
             block = item_rows(item, looks[item.id], self.size.width)
             self.spans[item.id] = range(len(rows), len(rows) + len(block))
@@ -160,9 +160,9 @@ class FormScreen(StudyScreen[bool]):
         else:
             self.show_keys(*keys[:1], turn, ("Enter", words.go_on))
 
-    def _look(self, question: AnyQuestion) -> Look:
+    def _look(self, question: AnyQuestion) -> AnswerLook:
         here = question.id == self.asked.id
-        return Look(
+        return AnswerLook(
             value=self.sheet.value(question),
             other=self.sheet.other(question),
             active=here,

@@ -10,11 +10,11 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 
 from game.screens.study.base import Frame, StudyScreen
-from game.screens.study.planmap import PlanMap
-from game.screens.study.timed import TICK_S, TimeLine
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.planmap import PlanMap
+from game.screens.widgets.timed import TICK_S, TimeLine
 from game.study.protocol.tasks import Labelling
 from game.world.building import Room
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from textual.containers import Center
 
 from game.screens.study.base import Frame, StudyScreen
-from game.screens.study.planmap import PlanMap
-from game.screens.study.timed import TICK_S, TimeLine
+from game.screens.widgets.planmap import PlanMap
+from game.screens.widgets.timed import TICK_S, TimeLine
 from game.study.protocol.tasks import Memorising
 
 

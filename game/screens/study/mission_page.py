@@ -13,10 +13,11 @@ from textual.screen import ModalScreen
 from game.journal.folders import JOURNAL
 from game.screens.play.live import LiveMission, PacedClock
 from game.screens.play.mission_screen import MissionScreen
-from game.screens.study.base import FixedStage, Frame, body, heading
-from game.screens.study.pages import Signs
-from game.screens.study.timed import TICK_S
+from game.screens.study.base import FixedStage, Frame
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.prose import body, heading
+from game.screens.widgets.signs import Signs
+from game.screens.widgets.timed import TICK_S
 from game.study.protocol.tasks import Playing
 from game.study.texts import LevelKeyWords, Page
 from game.world.events import LevelWish

@@ -28,7 +28,7 @@ MOST_NUMBERED = 9
 
 
 @dataclass(frozen=True)
-class Look:
+class AnswerLook:
     """What of a question is shown: its answer, what was written beside `other`, and, while it is
     the active one, what is being typed and on which answer the mark is, from 0."""
 
@@ -40,7 +40,7 @@ class Look:
     mark: int = 0
 
 
-def item_rows(item: Item, look: Look, columns: int) -> list[Row]:
+def item_rows(item: Item, look: AnswerLook, columns: int) -> list[Row]:
     """An item, `columns` wide. Every answer to a slider, scale or number takes as many rows."""
     match item:
         case HeadingItem():
@@ -57,14 +57,14 @@ def item_rows(item: Item, look: Look, columns: int) -> list[Row]:
             return words_rows(item, look, columns)
 
 
-def question_rows(question: AnyQuestion, look: Look, columns: int) -> list[Row]:
+def question_rows(question: AnyQuestion, look: AnswerLook, columns: int) -> list[Row]:
     """The question itself; an active one is marked."""
     mark, style = ("▸ ", "active") if look.active else (INDENT, "text")
     lines = wrapped(question.text, max(10, columns - 2))
     return [((mark if n == 0 else INDENT, style), (line, style)) for n, line in enumerate(lines)]
 
 
-def slider_rows(slider: SliderItem, look: Look, columns: int) -> list[Row]:
+def slider_rows(slider: SliderItem, look: AnswerLook, columns: int) -> list[Row]:
     """The question, the track with its knob, and the names of the ends."""
     value = look.value if isinstance(look.value, int) else None
     rows = question_rows(slider, look, columns)
@@ -98,7 +98,7 @@ def end_rows(low: str, high: str, columns: int) -> list[Row]:
     return rows
 
 
-def scale_rows(scale: ScaleItem, look: Look, columns: int) -> list[Row]:
+def scale_rows(scale: ScaleItem, look: AnswerLook, columns: int) -> list[Row]:
     """The question, and its points with their names: side by side, in as many columns where they
     must be wrapped, or below each other where a word would have to be broken."""
     head = question_rows(scale, look, columns)
@@ -136,7 +136,7 @@ def scale_rows(scale: ScaleItem, look: Look, columns: int) -> list[Row]:
     return [*head, *rows]
 
 
-def choice_rows(choice: ChoiceItem, look: Look, columns: int) -> list[Row]:
+def choice_rows(choice: ChoiceItem, look: AnswerLook, columns: int) -> list[Row]:
     """The question, and its answers below each other; beside `other` stands what was written."""
     rows = question_rows(choice, look, columns)
     chosen = look.value if isinstance(look.value, tuple) else (look.value,)
@@ -155,7 +155,7 @@ def choice_rows(choice: ChoiceItem, look: Look, columns: int) -> list[Row]:
     return rows
 
 
-def number_rows(number: NumberItem, look: Look, columns: int) -> list[Row]:
+def number_rows(number: NumberItem, look: AnswerLook, columns: int) -> list[Row]:
     """The question, and the number with its unit."""
     typed = ("" if look.value is None else str(look.value)) if look.draft is None else look.draft
     width = max(len(str(number.least)), len(str(number.most))) + 1
@@ -166,7 +166,7 @@ def number_rows(number: NumberItem, look: Look, columns: int) -> list[Row]:
     ]
 
 
-def words_rows(words: TextItem, look: Look, columns: int) -> list[Row]:
+def words_rows(words: TextItem, look: AnswerLook, columns: int) -> list[Row]:
     """The question, and what is written, in as many lines as it takes."""
     typed = (str(look.value or "")) if look.draft is None else look.draft
     room = max(10, columns - 4)

@@ -26,16 +26,18 @@ from game.screens.study.app import StudyApp
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import FormScreen
-from game.screens.study.pages import PageScreen, Signs
-from game.screens.study.planmap import PlanMap
+from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
+from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
+from game.screens.widgets.signs import Signs
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
 from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study
 from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
+from game.study.look import Look
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
 from game.study.protocol.tasks import Memorising, Sheet
@@ -64,8 +66,8 @@ class Rehearsed:
 class _Showing(Program, inherit_bindings=False):
     CSS_PATH: ClassVar[list[str | PurePath]] = StudyApp.CSS_PATH
 
-    def __init__(self, make: Make) -> None:
-        super().__init__("dark")
+    def __init__(self, make: Make, look: Look) -> None:
+        super().__init__("dark", look)
         self._make = make
 
     async def on_mount(self) -> None:
@@ -74,7 +76,7 @@ class _Showing(Program, inherit_bindings=False):
 
 async def shown(name: str, frame: Frame, make: Make, words: str) -> Rehearsed:
     """Open a page at the study's size, look at all of it, and compare it with its `words`."""
-    app = _Showing(make)
+    app = _Showing(make, frame.size.look)
     views: list[list[str]] = []
     pictures: list[str] = []
     async with app.run_test(size=(frame.size.columns, frame.size.rows)) as pilot:

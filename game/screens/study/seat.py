@@ -15,10 +15,11 @@ from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import StudyMission, StudyMissionScreen
-from game.screens.study.pages import PageScreen, Signs
-from game.screens.study.planmap import PlanMap
+from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen
 from game.screens.study.reason import ReasonScreen
+from game.screens.widgets.planmap import PlanMap
+from game.screens.widgets.signs import Signs
 from game.study.protocol.conduct import Stopped
 from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize

@@ -89,12 +89,13 @@ class Notice(ModalScreen[None]):
         Binding("ctrl+q,ctrl+c", "close", id="notice.close.ctrl"),
     ]
 
-    def __init__(self, title: str, text: str, *, key: str = "OK") -> None:
+    def __init__(self, title: str, text: str, *, key: str = "OK", wide: bool = False) -> None:
         super().__init__()
         self._title, self._text, self._key = title, text, key
+        self._wide = wide
 
     def compose(self) -> ComposeResult:
-        with Vertical(classes="dialog"):
+        with Vertical(classes="dialog broad" if self._wide else "dialog"):
             yield Static(self._title, classes="title", markup=False)
             yield Static(self._text, markup=False)
             yield KeyLine(("Enter", self._key))

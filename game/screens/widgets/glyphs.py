@@ -113,13 +113,13 @@ SOLID = _glyph_set(
     {
         Kind.SEEN_FLOOR: Glyph("  ", "seen-floor"),
         Kind.SEEN_WALL: Glyph("  ", "seen-wall"),
-        Kind.SEEN_DOOR: Glyph("  ", "seen-door"),
+        Kind.SEEN_DOOR: Glyph("▐▌", "seen-door"),
         Kind.FLOOR: Glyph("· ", "floor"),
         Kind.WALL: Glyph("  ", "wall"),
-        Kind.DOOR: Glyph("  ", "door"),
+        Kind.DOOR: Glyph("▐▌", "door"),
     }
 )
-"""Grounds of many colours: tiles are filled."""
+"""Grounds of many colours: walls and floor are filled, a door stands in the middle of its cell."""
 
 PLAIN = _glyph_set(
     {

@@ -27,8 +27,9 @@ _UNKNOWN = tuple(f"map-{tile.name.lower()}" for tile in Tile)
 STYLES = frozenset((*_KNOWN, *_UNKNOWN))
 """The component classes of a small map without pins."""
 PIN_STYLES = frozenset(
-    {"dark", "here", "trail", "red", "blue", "rescued", "expired", "name"}
+    {"dark", "here", "early", "late", "red", "blue", "rescued", "expired", "name"}
     | {f"likely-{step}" for step in range(5)}
+    | {f"trail-{stage}" for stage in range(4)}
 )
 """Those of what may stand on it."""
 
@@ -37,7 +38,7 @@ NO_TINTS: Mapping[Cell, str] = MappingProxyType({})
 DOOR_SIGN = "+"
 _DOORS = ("known-door", "map-door")
 _OPEN = ("floor", "door")
-_WALLS = ("trail", "known-wall", "map-wall")
+_WALLS = ("trail-3", "trail-2", "trail-1", "trail-0", "known-wall", "map-wall")
 _GROUNDS = ("known-door", "map-door", "known-floor", "map-floor")
 """Which of its cells gives a quarter-block its colour, and which its ground."""
 _QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"

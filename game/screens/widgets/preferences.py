@@ -19,8 +19,10 @@ class Preferences(msgspec.Struct, frozen=True):
     building: Literal["harbour", "foundry", "practice"] = "harbour"
     coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
+    memorise: Literal[0, 60, 180] = 0
+    """For how many seconds the map is shown before a mission."""
 
-    def replaced(self, **changes: str) -> Preferences:
+    def replaced(self, **changes: str | int) -> Preferences:
         """These with some choices changed. Raises msgspec.ValidationError for an unknown one."""
         return msgspec.convert(msgspec.to_builtins(self) | changes, Preferences)
 

@@ -22,6 +22,7 @@ from game.places import reports_folder
 from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal_driver import TerminalDriver
 from game.screens.widgets.theme import THEMES, theme_name
+from game.study.look import LOOK, Look
 
 
 class Program(App[None], inherit_bindings=False):
@@ -30,8 +31,9 @@ class Program(App[None], inherit_bindings=False):
 
     ENABLE_COMMAND_PALETTE: ClassVar[bool] = False
 
-    def __init__(self, wanted: Ground | None = None) -> None:
-        theme = theme_name(os.environ, wanted)
+    def __init__(self, wanted: Ground | None = None, look: Look = LOOK) -> None:
+        theme = theme_name(os.environ, wanted, look)
+        self.look = look
         super().__init__(
             driver_class=TerminalDriver, ansi_color=True if theme == "ana-terminal" else None
         )

@@ -1,6 +1,7 @@
 """Colours: two themes of many colours, and one of the terminal's own.
 
-A theme gives the names that the style sheets use; nothing else in the screens names a colour.
+A theme gives the names that the style sheets use; nothing else in the screens names a colour. The
+first two exist in each look: a study keeps the one it was made with.
 """
 
 from __future__ import annotations
@@ -11,9 +12,15 @@ from textual.theme import Theme
 
 from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal import colours, ground
+from game.study.look import LOOK, Look
 
 _DARK = {
     "dark": "#121316",
+    "unseen": "#121316",
+    "door-ground": "#d7870f",
+    "seen-door-ground": "#875f00",
+    "on-red-ground": "#ff5f52",
+    "on-blue-ground": "#62b6ff",
     "wall": "#b4b7be",
     "floor": "#44474d",
     "dots": "#7c8087",
@@ -51,7 +58,10 @@ _DARK = {
     "known-wall": "#b4b7be",
     "known-door": "#d7870f",
     "known-floor": "#303237",
-    "trail": "#f5d90a",
+    "trail-0": "#5d5620",
+    "trail-1": "#8d811c",
+    "trail-2": "#c0ad12",
+    "trail-3": "#f5d90a",
     "box": "#1d1e22",
     "line": "#4c4f55",
     "accent": "#f5d90a",
@@ -62,6 +72,11 @@ _DARK = {
 
 _LIGHT = {
     "dark": "#e9e5dc",
+    "unseen": "#e9e5dc",
+    "door-ground": "#d9822b",
+    "seen-door-ground": "#cfa878",
+    "on-red-ground": "#c8102e",
+    "on-blue-ground": "#0b5fc2",
     "wall": "#454c5a",
     "floor": "#ffffff",
     "dots": "#c3beb3",
@@ -99,7 +114,10 @@ _LIGHT = {
     "known-wall": "#454c5a",
     "known-door": "#d9822b",
     "known-floor": "#ffffff",
-    "trail": "#a36a00",
+    "trail-0": "#e6cc93",
+    "trail-1": "#cda24e",
+    "trail-2": "#a87a16",
+    "trail-3": "#754d00",
     "box": "#f5f2ea",
     "line": "#b3aea3",
     "accent": "#8f6a00",
@@ -108,8 +126,50 @@ _LIGHT = {
     "high": "#067a46",
 }
 
+_DARK_2 = _DARK | {
+    "unseen": "#000000",
+    "wall": "#c4c7cd",
+    "floor": "#37393e",
+    "dots": "#9aa0a9",
+    "door-ground": "#37393e",
+    "seen-wall": "#74777e",
+    "seen-floor": "#2e2f33",
+    "seen-door": "#a87400",
+    "seen-door-ground": "#2e2f33",
+    "red": "#ff937e",
+    "on-red-ground": "#a8071a",
+    "on-blue-ground": "#0b3fb5",
+    "expired": "#a9b0bf",
+    "seen-red": "#dd7263",
+    "seen-blue": "#4a90cd",
+    "seen-rescued": "#3f9a68",
+    "seen-expired": "#7d8493",
+    "known-wall": "#c4c7cd",
+    "known-floor": "#383a40",
+}
+_LIGHT_2 = _LIGHT | {
+    "unseen": "#aba69a",
+    "door": "#c26a12",
+    "door-ground": "#ffffff",
+    "seen-wall": "#777369",
+    "seen-door": "#9c6222",
+    "seen-door-ground": "#dcd7cb",
+    "seen-red": "#a03a47",
+    "seen-blue": "#3a6ca8",
+    "seen-rescued": "#33754f",
+    "seen-expired": "#6a6c72",
+    "map-wall": "#8d887d",
+    "map-floor": "#ccc7bc",
+    "known-door": "#c26a12",
+}
+
 _TERMINAL = {
     "dark": "ansi_default",
+    "unseen": "ansi_default",
+    "door-ground": "ansi_yellow",
+    "seen-door-ground": "ansi_default",
+    "on-red-ground": "ansi_bright_red",
+    "on-blue-ground": "ansi_bright_blue",
     "wall": "ansi_default",
     "floor": "ansi_default",
     "dots": "ansi_default",
@@ -147,7 +207,10 @@ _TERMINAL = {
     "known-wall": "ansi_default",
     "known-door": "ansi_yellow",
     "known-floor": "ansi_default",
-    "trail": "ansi_magenta",
+    "trail-0": "ansi_bright_black",
+    "trail-1": "ansi_bright_black",
+    "trail-2": "ansi_magenta",
+    "trail-3": "ansi_magenta",
     "box": "ansi_default",
     "line": "ansi_bright_black",
     "accent": "ansi_default",
@@ -204,15 +267,17 @@ def _theme(name: str, inks: Mapping[str, str], *, dark: bool, ansi: bool = False
 
 
 THEMES = (
-    _theme("ana-dark", _DARK, dark=True),
-    _theme("ana-light", _LIGHT, dark=False),
+    _theme("ana-dark", _DARK_2, dark=True),
+    _theme("ana-light", _LIGHT_2, dark=False),
+    _theme("ana-dark-1", _DARK, dark=True),
+    _theme("ana-light-1", _LIGHT, dark=False),
     _theme("ana-terminal", _TERMINAL, dark=True, ansi=True),
 )
 
 
-def theme_name(environ: Mapping[str, str], wanted: Ground | None = None) -> str:
+def theme_name(environ: Mapping[str, str], wanted: Ground | None = None, look: Look = LOOK) -> str:
     """The theme for this terminal: its own colours where it has 16 or fewer. `wanted` is the user's
     own choice of ground."""
     if colours(environ) in ("none", "16"):
         return "ana-terminal"
-    return f"ana-{wanted or ground(environ)}"
+    return f"ana-{wanted or ground(environ)}" + ("" if look == LOOK else f"-{look}")

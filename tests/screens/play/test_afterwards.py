@@ -13,7 +13,7 @@ from game.coach.spec import CoachSpec, parse_coach
 from game.journal.reader import read_journal
 from game.journal.records import MissionAbandoned, RunRecord
 from game.screens.play.coachpanel import coach_pins, coach_rows
-from game.screens.play.mission_story import tell
+from game.screens.play.mission_story import MissionStory, tell
 from game.screens.play.replay_screen import ReplayScreen, timeline_rows
 from game.screens.play.result import result_rows
 from game.screens.widgets.canvas import plain
@@ -56,13 +56,33 @@ async def test_a_replay_steps_through_the_missions_of_a_journal(
         assert await until(pilot, ReplayScreen) is replay, "there is no third mission"
 
 
+def whole(story: MissionStory) -> MissionStory:
+    """The story with every victim in it, as of a mission that was not left at once."""
+    return replace(story, revealed=frozenset(story.fates))
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(77, 22), (117, 38), (197, 58)])
+def test_a_mission_left_at_once_gives_no_victim_away(
+    tmp_path: Path, ward: Building, columns: int, rows: int
+) -> None:
+    replay = Replay(read_journal(write_two_missions(tmp_path, ward)))
+    replay.seek(replay.duration_ms)
+    story = tell(replay)
+    assert story.left and not story.revealed
+    page = "\n".join(plain(result_rows(story, columns, rows, filled=True)))
+    assert "The victims you had not seen are not shown" in page
+    assert not {"●", "○"} & set(page)
+    everything = "\n".join(plain(result_rows(whole(story), columns, rows, filled=True)))
+    assert {"●", "○"} & set(everything)
+
+
 @pytest.mark.parametrize(("columns", "rows"), [(77, 22), (117, 38), (197, 58)])
 def test_both_charts_stand_on_the_first_page_and_use_its_height(
     tmp_path: Path, ward: Building, columns: int, rows: int
 ) -> None:
     replay = Replay(read_journal(write_two_missions(tmp_path, ward)))
     replay.seek(replay.duration_ms)
-    story = replace(tell(replay), levels=(ChartStep(0, 2), ChartStep(500, 3)))
+    story = replace(whole(tell(replay)), levels=(ChartStep(0, 2), ChartStep(500, 3)))
     lines = plain(result_rows(story, columns, rows, filled=True))
     titles = [i for i, line in enumerate(lines) if "Rescued" in line or "Level of the" in line]
     assert len(titles) == 2 and rows - 18 <= len(lines) <= rows
@@ -76,7 +96,7 @@ def test_a_level_that_never_changed_is_told_in_words(
 ) -> None:
     replay = Replay(read_journal(write_two_missions(tmp_path, ward)))
     replay.seek(replay.duration_ms)
-    lines = plain(result_rows(tell(replay), columns, rows, filled=True))
+    lines = plain(result_rows(whole(tell(replay)), columns, rows, filled=True))
     assert sum("The coach stayed at C1." in line for line in lines) == 1
     assert not any("Level of the coach" in line for line in lines)
     assert len(lines) <= rows and sum("Test Lab" in line for line in lines) >= 1

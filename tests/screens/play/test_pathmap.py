@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -86,7 +87,7 @@ def test_the_way_is_drawn_from_its_beginning_to_its_end(
     walked = [cell for cell in story.path if HARBOUR.plan.tile(cell) is Tile.FLOOR]
     trail = [cell for cell in walked if "trail" in at(cell)[1]]
     assert len(trail) > len(walked) * (0.8 if filled else 0.3)
-    assert "where you finished" in plain([legend_row(story)])[0]
+    assert "where you finished" in plain([legend_row(story, filled=True)])[0]
 
 
 @pytest.mark.parametrize("filled", [True, False])
@@ -94,3 +95,18 @@ def test_names_stand_whole_over_the_way(story: MissionStory, filled: bool) -> No
     text = "\n".join(plain(path_map(story, columns=WIDE, filled=filled)))
     for room in HARBOUR.rooms:
         assert all(word in text for word in room.name.split())
+
+
+@pytest.mark.parametrize("columns", [NARROW, WIDE])
+def test_the_way_says_when_and_in_which_direction(story: MissionStory, columns: int) -> None:
+    quick = replace(story, settings=replace(story.settings, duration_ms=12_000))
+    drawn = characters(path_map(quick, columns=columns, filled=True))
+    styles = {style for line in drawn for _, style in line}
+    for stage in (0, 2, 3):
+        assert any(f"trail-{stage}" in style for style in styles), "walked last then"
+    arrows = {
+        letter for line in drawn for letter, style in line if style.startswith(("early", "late"))
+    }
+    assert "▶" in arrows and "▼" not in arrows, "the walk went north, west and east"
+    slow = characters(path_map(story, columns=columns, filled=True))
+    assert not any("trail-1" in style for line in slow for _, style in line), "still early"

@@ -34,7 +34,7 @@ class Terminal:
         self.resize(*size)
         env = {key: value for key, value in os.environ.items() if key not in _UNSET}
         env |= {"TERM": "xterm-256color", "XDG_CONFIG_HOME": str(folder / "config")}
-        command = [sys.executable, "-m", "game", "play", "--building", "practice"]
+        command = [sys.executable, "-m", "game", "play", "--now", "--building", "practice"]
         self.process = subprocess.Popen(
             [*command, "--log", str(folder / "logs"), "--coach", "static", *args],
             stdin=terminal, stdout=terminal, stderr=terminal, env=env, cwd=ROOT,

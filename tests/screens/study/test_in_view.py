@@ -18,6 +18,7 @@ from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
 from game.screens.study.rehearsal import Make, _Showing, painted
+from game.study.look import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Sheet
 from game.study.study_settings import ScreenSize
@@ -77,7 +78,7 @@ def scales(count: int) -> tuple[ScaleItem, ...]:
 
 @asynccontextmanager
 async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
-    async with _Showing(make).run_test(size=(columns, rows)) as pilot:
+    async with _Showing(make, LOOK).run_test(size=(columns, rows)) as pilot:
         await pilot.pause(1.1)
         yield pilot, pilot.app.screen
 

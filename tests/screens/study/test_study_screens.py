@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from textual.events import Paste
 from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widgets import TextArea
@@ -39,10 +40,11 @@ from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import Reminder, StudyMissionScreen
-from game.screens.study.pages import PageScreen, Signs
+from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall
 from game.screens.study.reason import MOST_LETTERS, ReasonScreen
 from game.screens.widgets.dialogs import Question
+from game.screens.widgets.signs import Signs
 from game.study.folder import Study, open_study
 from game.study.lock import SessionBusy, SessionLock
 from game.tables.session_tables import session_tables
@@ -510,6 +512,22 @@ async def test_too_long_a_reason_is_said_and_nothing_of_it_is_cut(study: Study) 
         await pilot.press("backspace", "enter")
         await until(pilot, PageScreen)
     assert records(study, FreeText, segment=1)[0].answer == "a" * MOST_LETTERS
+
+
+async def test_a_paste_that_does_not_fit_is_left_out_and_said(study: Study) -> None:
+    async with at(study, Step("preference")) as pilot:
+        await until(pilot, ChoiceScreen)
+        await pilot.press("1", "enter")
+        reason = await until(pilot, ReasonScreen)
+        pilot.app.post_message(Paste("x" * 1_000_000))
+        await pilot.pause()
+        assert "What you pasted was left out: 998,000 too many." in painted(reason)
+        pilot.app.post_message(Paste("clear"))
+        await pilot.pause()
+        assert "left out" not in painted(reason)
+        await pilot.press("enter")
+        await until(pilot, PageScreen)
+    assert records(study, FreeText, segment=1)[0].answer == "clear"
 
 
 async def test_a_full_disk_is_told_and_nothing_goes_on(

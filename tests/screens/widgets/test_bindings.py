@@ -8,9 +8,12 @@ from textual.screen import Screen
 
 from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
+from game.screens.play.lesson_screen import LessonScreen
+from game.screens.play.map_screen import MapScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
 from game.screens.play.result import ResultScreen
+from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question
 from game.screens.widgets.howto import HowToScreen
@@ -18,8 +21,8 @@ from game.screens.widgets.howto import HowToScreen
 MOVING = frozenset("hjklwasd")
 """Letters that are other names of the arrows."""
 SCREENS = [
-    Help, HomeScreen, HowToScreen, JournalsScreen, MissionScreen, Notice, Pause, Question,
-    ReplayScreen, ResultScreen, WatchScreen,
+    Help, HomeScreen, HowToScreen, JournalsScreen, LessonScreen, MapScreen, MissionScreen, Notice,
+    Pause, Question, ReplayScreen, ResultScreen, StartScreen, WatchScreen,
 ]  # fmt: skip
 
 

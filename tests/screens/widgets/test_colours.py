@@ -49,7 +49,17 @@ def test_colours_and_theme(environ: dict[str, str], found: str, theme: str) -> N
 def test_no_more_colours_are_sent_than_there_are(
     tmp_path: Path, environ: dict[str, str], found: str
 ) -> None:
-    command = [sys.executable, "-m", "game", "play", "--building", "practice", "--coach", "static"]
+    command = [
+        sys.executable,
+        "-m",
+        "game",
+        "play",
+        "--now",
+        "--building",
+        "practice",
+        "--coach",
+        "static",
+    ]
     with Terminal([*command, "--log", tmp_path], env=environ) as terminal:
         terminal.wait_for("left")
         terminal.read_for(FLASH_S + 0.5)

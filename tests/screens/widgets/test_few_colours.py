@@ -14,12 +14,12 @@ from textual.widget import Widget
 from game.screens.play.app import AnaApp
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.study.app import StudyApp
-from game.screens.study.planmap import PlanMap
 from game.screens.study.preflight import Checks, PreflightScreen
 from game.screens.widgets.canvas import Canvas, plain
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.minimap import MiniMap
 from game.screens.widgets.officeview import OfficeView
+from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.statuspanel import StatusPanel
 from game.world import load_building
 from tests.screens.pilots import painted, until

@@ -9,17 +9,17 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from game.coach.route import (
+from game.world import load_building
+from game.world.building import Building, Severity, VictimSite
+from game.world.floodfill import Floodfills
+from game.world.geometry import Cell
+from game.world.route import (
     PASSING_BY_MOVES,
     SPARE_MOVES,
     WEIGHTS,
     Route,
     RoutePlanner,
 )
-from game.world import load_building
-from game.world.building import Building, Severity, VictimSite
-from game.world.floodfill import Floodfills
-from game.world.geometry import Cell
 from game.world.settings import MissionSettings
 
 SETTINGS = MissionSettings()

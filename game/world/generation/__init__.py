@@ -1,0 +1,1 @@
+"""Offices made from a seed."""

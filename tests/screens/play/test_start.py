@@ -1,0 +1,201 @@
+"""The first minute: the page before a mission, and the keys at its foot."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from game.coach.spec import parse_coach
+from game.journal.history import read_history
+from game.journal.reader import read_journal
+from game.journal.records import Paused
+from game.screens.play.app import AnaApp, PlayOptions
+from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
+from game.screens.play.home import HomeScreen
+from game.screens.play.map_screen import MapScreen
+from game.screens.play.mission_screen import MissionScreen
+from game.screens.play.start_screen import StartScreen
+from game.screens.widgets.canvas import width
+from game.screens.widgets.dialogs import Help, TooSmall
+from game.screens.widgets.keyline import KeyLine
+from game.session.playing import start_in_memory
+from game.world import load_building
+from game.world.building import Building
+from game.world.events import Acted, Action
+from game.world.settings import FREE_PLAY, MissionSettings
+from tests.screens.pilots import Open, painted, press, shown, until
+
+
+def offered(app: AnaApp) -> None:
+    assert app._options is not None
+    app.offer_mission(app._options)
+
+
+async def test_before_a_mission_stands_what_it_is_about(open_app: Open, tmp_path: Path) -> None:
+    async with open_app(offered) as (_, pilot):
+        card = await until(pilot, StartScreen)
+        page = painted(card)
+        for words in ("Ward", "3 people", "2 red", "1 blue", "4:00", "yellow bar", "Space"):
+            assert words in page
+        assert not list(tmp_path.glob("*/journal.jsonl")), "nothing has begun"
+
+
+@pytest.mark.parametrize("key", ["up", "space", "x", "enter", "f5"])
+async def test_the_clock_starts_with_the_first_key(open_app: Open, key: str) -> None:
+    async with open_app(offered) as (_, pilot):
+        await until(pilot, StartScreen)
+        await asyncio.sleep(0.3)
+        await press(pilot, key)
+        mission = await until(pilot, MissionScreen)
+        assert mission.live.observation().time_ms < 300
+        kinds = [type(e.record) for e in read_journal(mission.journal).entries]
+        assert Paused not in kinds and Acted not in kinds
+
+
+async def test_help_and_back_are_no_start(open_app: Open, tmp_path: Path) -> None:
+    async with open_app(AnaApp.show_home) as (app, pilot):
+        await until(pilot, HomeScreen)
+        await press(pilot, "enter")
+        card = await until(pilot, StartScreen)
+        await press(pilot, "question_mark")
+        assert isinstance(app.screen, Help)
+        await press(pilot, "escape")
+        assert app.screen is card
+        await press(pilot, "q")
+        await until(pilot, HomeScreen)
+        assert not list(tmp_path.glob("*/journal.jsonl"))
+
+
+async def test_from_the_command_line_back_quits_and_a_bad_folder_ends_with_status_2(
+    open_app: Open, ward: Building, tmp_path: Path
+) -> None:
+    async with open_app(offered) as (app, pilot):
+        await until(pilot, StartScreen)
+        await press(pilot, "escape")
+        assert app.return_code == 0
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    options = PlayOptions(ward, parse_coach("ana"), MissionSettings(), 1, blocked)
+    async with open_app(lambda app: app.offer_mission(options)) as (app, pilot):
+        await until(pilot, StartScreen)
+        await press(pilot, "enter")
+        await pilot.pause()
+        assert app.return_code == 2 and app.failure is not None
+
+
+@pytest.mark.parametrize("controls", ["compass", "turn"])
+async def test_the_keys_stand_at_the_foot_of_the_smallest_window(
+    open_app: Open, controls: str
+) -> None:
+    rules = {"controls": controls, "level_key": True}
+    async with open_app(**rules) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        line = mission.query_one(KeyLine)
+        assert (line.region.y, line.region.height) == (23, 1)
+        assert width(line.rows[0]) - 2 <= 80
+        for key, does in mission_keys(mission.live.settings)[:4]:
+            assert f" {key}  {does}" in shown(mission)
+
+
+def test_only_keys_that_do_something_are_named() -> None:
+    named = dict(mission_keys(FREE_PLAY))
+    assert set(named) == {"↑↓←→", "Space", "?", "Q", "P", "+ -"}
+    assert "P" not in dict(mission_keys(MissionSettings(allow_pause=False)))
+    assert "+ -" not in dict(mission_keys(MissionSettings()))
+
+
+async def test_the_bar_names_the_key(open_app: Open) -> None:
+    async with open_app() as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        assert "Utilize medical equipment (space)." in shown(mission)
+
+
+def test_the_key_is_named_until_it_was_used_once(ward: Building) -> None:
+    run, _ = start_in_memory(
+        ward, MissionSettings(), parse_coach("static", 1), 1, rescuer="literal"
+    )
+    gloss = Gloss()
+
+    def bar() -> str:
+        guidance = gloss.of(run.observation()).guidance
+        assert guidance is not None
+        return guidance.text
+
+    for step in range(6):
+        assert "(space)" in bar()
+        run.press(Action.EAST, 200 * step)
+    run.press(Action.TRIAGE, 1_200)
+    assert "(space)" in bar(), "what stands there is not said anew"
+    run.advance(8_000)
+    assert run.mission.rescued == 1
+    assert "Utilize medical equipment." in bar() and "(space)" not in bar()
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Turn left.", "Turn left."),
+        ("Stop. Utilize medical equipment.", "Stop. Utilize medical equipment (space)."),
+        ("Approach and save the red victim.", "Approach and save the red victim (space)."),
+        ("Triage the blue victim.", "Triage the blue victim (space)."),
+        ("Go to the Triage Room.", "Go to the Triage Room."),
+    ],
+)
+def test_every_way_of_asking_for_the_key_is_explained(text: str, told: str) -> None:
+    assert glossed(text) == told
+
+
+def with_map(app: AnaApp) -> None:
+    assert app._options is not None
+    app.offer_mission(replace(app._options, memorise_ms=600))
+
+
+async def test_a_map_first_goes_by_itself_and_is_recorded(open_app: Open) -> None:
+    async with open_app(with_map) as (_, pilot):
+        await until(pilot, StartScreen)
+        await press(pilot, "space")
+        mission = await until(pilot, MissionScreen)
+        played = read_history(read_journal(mission.journal)).missions[0]
+        assert played.started.memorised_ms == 600
+        assert mission.live.observation().time_ms < 1_000
+
+
+async def test_the_map_can_be_left_early_and_its_time_stands_still_when_covered(
+    open_app: Open, ward: Building
+) -> None:
+    def first(app: AnaApp) -> None:
+        assert app._options is not None
+        app.offer_mission(replace(app._options, memorise_ms=3_600_000, now=True))
+
+    async with open_app(first, building=load_building("harbour")) as (_, pilot):
+        page = await until(pilot, MapScreen)
+        assert "Archive" in painted(page) and "Board Room" in painted(page)
+        frame = page.query_one(".map")
+        await press(pilot, "down", "down", "right")
+        assert frame.scroll_y > 0 and frame.scroll_x > 0, "it is larger than the window"
+        await pilot.resize_terminal(60, 20)
+        await until(pilot, TooSmall)
+        before = page._clock.now_ms()
+        await asyncio.sleep(0.05)
+        assert page._clock.now_ms() == before
+        await pilot.resize_terminal(80, 24)
+        await until(pilot, MapScreen)
+        await press(pilot, "enter")
+        mission = await until(pilot, MissionScreen)
+        played = read_history(read_journal(mission.journal)).missions[0]
+        assert 0 < played.started.memorised_ms < 3_600_000
+
+
+async def test_back_from_the_map_begins_nothing(open_app: Open, tmp_path: Path) -> None:
+    async with open_app(AnaApp.show_home) as (_, pilot):
+        home = await until(pilot, HomeScreen)
+        await press(pilot, "down", "down", "down", "right")
+        assert home.preferences.memorise == 60
+        await press(pilot, "p")
+        await until(pilot, MapScreen)
+        await press(pilot, "escape")
+        await until(pilot, HomeScreen)
+        assert not list(tmp_path.glob("*/journal.jsonl"))
