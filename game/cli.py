@@ -28,6 +28,7 @@ STATUS_INTERRUPTED = 130
     cls=LazyGroup,
     commands=[
         LazyCommand("play", "game.commands.ana_play:play", "Play a mission now."),
+        LazyCommand("serve", "game.commands.ana_serve:serve_play", "Play in a browser."),
         LazyCommand("watch", "game.commands.ana_watch:watch", "Watch a simulated rescuer play."),
         LazyCommand(
             "replay",

@@ -12,6 +12,7 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 MISSING = {
     "root may read everything": "a user who is not root",
     "OpenSSH's server or client is not installed": "an OpenSSH server",
+    "Chromium is not installed": "Chromium",
     "the extra `cluster` is not installed": "the extra cluster",
 }
 """The reasons for which a test may be skipped, and what is missing then."""

@@ -48,7 +48,63 @@ class Chunk(NamedTuple):
     data: bytes
 
 
-class Terminal:
+class Shown:
+    """What a program shows, wherever it runs: its output, emulated."""
+
+    def __init__(self, columns: int, rows: int) -> None:
+        self.chunks: list[Chunk] = []
+        self._screen = pyte.Screen(columns, rows)
+        self._stream = pyte.ByteStream(self._screen)
+        self._fed = 0
+        self._shown: str | None = None
+
+    def press(self, *keys: str) -> None:
+        """Type keys by name, or text as it is."""
+        raise NotImplementedError
+
+    def read_for(self, seconds: float) -> bool:
+        """Collect output for a while. False once the program has ended."""
+        raise NotImplementedError
+
+    def wait(self, seconds: float = 10) -> int:
+        """Read until the program ends, and return its exit status. Raises TimeoutError."""
+        raise NotImplementedError
+
+    def wait_for(self, text: str, seconds: float = 15) -> str:
+        """Read until `text` is on the screen, and return the screen. Raises TimeoutError."""
+        end = time.perf_counter() + seconds
+        while text not in (shown := self.text()):
+            if time.perf_counter() > end or not self.read_for(0.05):
+                raise TimeoutError(f"{text!r} did not come up; the screen:\n{shown}")
+        return shown
+
+    def text(self) -> str:
+        """What the screen shows now."""
+        new, self._fed = self.chunks[self._fed :], len(self.chunks)
+        for chunk in new:
+            self.feed(self._stream, chunk.data)
+        if new or self._shown is None:
+            self._shown = "\n".join(line.rstrip() for line in self._screen.display)
+        return self._shown
+
+    def forget(self) -> None:
+        """Begin with an empty screen, as if nothing had come yet."""
+        self.chunks.clear()
+        self._screen.reset()
+        self._fed, self._shown = 0, None
+
+    @staticmethod
+    def answer(data: bytes) -> bytes:
+        """What a terminal says to the questions in a program's output."""
+        return b"".join(said for query, said in _QUERIES.items() if query in data)
+
+    @staticmethod
+    def feed(stream: Any, data: bytes) -> None:
+        """Give output to an emulator without the few sequences it would print as text."""
+        stream.feed(_UNKNOWN_TO_PYTE.sub(b"", data))
+
+
+class Terminal(Shown):
     """`command` running in a terminal of its own, 256 colours unless `env` says otherwise.
 
     Use as a context manager: on leaving, the program is hung up on and reaped.
@@ -62,12 +118,8 @@ class Terminal:
         rows: int = 24,
         env: Mapping[str, str] | None = None,
     ) -> None:
-        self.chunks: list[Chunk] = []
+        super().__init__(columns, rows)
         self.status: int | None = None
-        self._screen = pyte.Screen(columns, rows)
-        self._stream = pyte.ByteStream(self._screen)
-        self._fed = 0
-        self._shown: str | None = None
         inherited = {
             name: value
             for name, value in os.environ.items()
@@ -94,7 +146,6 @@ class Terminal:
         self._shown = None
 
     def press(self, *keys: str) -> None:
-        """Type keys by name, or text as it is."""
         for key in keys:
             self.write(KEYS.get(key, key).encode())
 
@@ -102,7 +153,6 @@ class Terminal:
         os.write(self._descriptor, data)
 
     def read_for(self, seconds: float) -> bool:
-        """Collect output for a while. False once the program has ended."""
         end = time.perf_counter() + seconds
         while (left := end - time.perf_counter()) > 0:
             if not select.select([self], [], [], left)[0]:
@@ -124,32 +174,8 @@ class Terminal:
         if not data:
             return False
         self.chunks.append(Chunk(time.perf_counter(), data))
-        for query, answer in _QUERIES.items():
-            if query in data:
-                self.write(answer)
+        self.write(self.answer(data))
         return True
-
-    def wait_for(self, text: str, seconds: float = 15) -> str:
-        """Read until `text` is on the screen, and return the screen. Raises TimeoutError."""
-        end = time.perf_counter() + seconds
-        while text not in (shown := self.text()):
-            if time.perf_counter() > end or not self.read_for(0.05):
-                raise TimeoutError(f"{text!r} did not come up; the screen:\n{shown}")
-        return shown
-
-    def text(self) -> str:
-        """What the screen shows now."""
-        new, self._fed = self.chunks[self._fed :], len(self.chunks)
-        for chunk in new:
-            self.feed(self._stream, chunk.data)
-        if new or self._shown is None:
-            self._shown = "\n".join(line.rstrip() for line in self._screen.display)
-        return self._shown
-
-    @staticmethod
-    def feed(stream: Any, data: bytes) -> None:
-        """Give output to an emulator without the few sequences it would print as text."""
-        stream.feed(_UNKNOWN_TO_PYTE.sub(b"", data))
 
     def wait(self, seconds: float = 10) -> int:
         """Read until the program ends, and return its exit status (negative: a signal's number).

@@ -13,7 +13,7 @@ from game import __version__
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
-TIERS = ("play", "all")
+TIERS = ("play", "web", "all")
 
 
 def pins(tier: str) -> set[str]:
@@ -47,8 +47,8 @@ def test_pins_name_no_place_to_fetch_from(tier: str) -> None:
         )
 
 
-def test_play_is_part_of_all_so_that_neither_undoes_the_other() -> None:
-    assert pins("play") < pins("all")
+def test_play_is_part_of_all_so_that_none_undoes_another() -> None:
+    assert pins("play") < pins("web") < pins("all")
 
 
 def test_the_game_tier_is_small_and_whole() -> None:
@@ -56,6 +56,11 @@ def test_the_game_tier_is_small_and_whole() -> None:
     assert names(PROJECT["project"]["dependencies"]) <= pinned
     assert "hatchling" in pinned
     assert not pinned & names(PROJECT["project"]["optional-dependencies"]["analysis"])
+
+
+def test_the_tier_for_browsers_is_the_game_and_what_it_is_served_with() -> None:
+    pinned = {pin.partition("==")[0] for pin in pins("web")}
+    assert names(PROJECT["project"]["optional-dependencies"]["web"]) <= pinned
 
 
 def test_the_build_backend_is_the_pinned_one() -> None:

@@ -329,6 +329,46 @@ def print_ssh_configuration(
         _red(f"{folder}: {one}")
 
 
+@study_group.command("serve", short_help="Let participants in with a browser.")
+@_FOLDER
+@click.option("--host", default="127.0.0.1", show_default=True,
+              help="The address to listen on; your own proxy adds TLS.")  # fmt: skip
+@click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True,
+              help="The port; 0 takes a free one.")  # fmt: skip
+@click.option("--url", help="The address that participants use, where a proxy stands before this.")
+@click.option("--sessions", type=click.IntRange(1), default=40, show_default=True,
+              help="How many may take part at once.")  # fmt: skip
+def serve_browsers(folder: Path, host: str, port: int, url: str | None, sessions: int) -> None:
+    """Let participants take part in the study DIR with a browser; Ctrl+C ends it.
+
+    Each of them comes with a link of their own (ana study invite) or with a panel's ID. Everybody
+    who is in the study when it ends can come back later and continues.
+    """
+    from game.commands.ana_study_web import serve_study
+
+    serve_study(folder, host, port, url, sessions)
+
+
+@study_group.command("invite", short_help="Print links for a browser.")
+@_FOLDER
+@click.argument("participants", metavar="ID...", nargs=-1, required=True)
+@click.option("--url", default="http://localhost:8080/", show_default=True,
+              help="The address that participants use.")  # fmt: skip
+@click.option("--panel", is_flag=True,
+              help="The IDs are a panel's: print what they are called in the study.")  # fmt: skip
+@_PILOT
+def print_invitations(
+    folder: Path, participants: tuple[str, ...], url: str, *, panel: bool, pilot: bool
+) -> None:
+    """Print each participant ID and a link that opens that participant's session.
+
+    The links are signed with a key in the study folder, so nobody can make one for another ID.
+    """
+    from game.commands.ana_study_web import print_links
+
+    print_links(folder, participants, url, pilot=pilot, panel=panel)
+
+
 @study_group.command("login", short_help="What the SSH server runs for a participant.")
 @_ANY_FOLDER
 @_PILOT

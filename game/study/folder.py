@@ -37,6 +37,7 @@ from game.study.ledger import (
     agreement,
     utc_now,
 )
+from game.study.links import pseudonyms
 from game.study.study_settings import (
     ADAPTIVE,
     ScreenSize,
@@ -187,7 +188,9 @@ def admit_by_roster(folder: Path, identity: Identity) -> None:
     """Raise StudyError unless the participant is on the roster, where there is one; pilots need not
     be."""
     roster = roster_of(folder) if identity.mode == "live" else None
-    if roster is not None and identity.participant not in roster:
+    if roster is None or identity.participant in roster:
+        return
+    if identity.participant not in pseudonyms(folder, roster):
         raise StudyError(
             f"{identity.participant} is not on the roster of this study",
             place=str(folder / ROSTER),

@@ -75,6 +75,26 @@ class Primary(_Section, frozen=True):
     correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
 
 
+class WebSettings(_Section, frozen=True):
+    """Taking part in a browser: the address to go to at the end, in which `{code}` stands for the
+    completion code (empty: none); the name under which a panel's links carry its ID (empty: no
+    such links); and whether a pseudonym made from that ID is recorded in its place."""
+
+    return_url: str = ""
+    panel_id: str = "PROLIFIC_PID"
+    hash_ids: bool = True
+
+    def __post_init__(self) -> None:
+        address = self.return_url.replace("{code}", "")
+        if address and not re.fullmatch(r"https?://[^/\s{}][^\s{}]*", address):
+            raise ValueError(
+                "web.return_url must be an address that begins with https://, in which {code} "
+                "stands for the completion code"
+            )
+        if self.panel_id and not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", self.panel_id):
+            raise ValueError("web.panel_id must be a name of letters, digits, _ and -")
+
+
 class StudySettings(_Section, frozen=True):
     """All settings of a study. Raises ValueError, naming the setting, if one is out of range."""
 
@@ -95,6 +115,7 @@ class StudySettings(_Section, frozen=True):
     )
     interruption: InterruptionRules = InterruptionRules()
     primary: Primary = Primary()
+    web: WebSettings = WebSettings()
 
     def __post_init__(self) -> None:
         if not self.name.strip():
@@ -167,7 +188,7 @@ def _suggestion(message: str) -> str:
     unknown = re.search(r"no setting `(\w+)`", message)
     if unknown is None:
         return ""
-    sections = (StudySettings, ScreenSize, InterruptionRules, Primary)
+    sections = (StudySettings, ScreenSize, InterruptionRules, Primary, WebSettings)
     names = {field for section in sections for field in section.__struct_fields__}
     names |= {field.name for field in fields(MissionSettings)}
     return did_you_mean(unknown[1], sorted(names)) or "Remove it"

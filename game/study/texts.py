@@ -16,7 +16,7 @@ from game.forms.placeholders import check_placeholders
 from game.forms.reading import Pages
 from game.world.events import LevelWish
 
-LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key")
+LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
     "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
@@ -179,6 +179,27 @@ class ScreenWords(_Part, frozen=True):
     fault: str
 
 
+class BrowserPage(Page, frozen=True):
+    """A page outside the program, and its button; without words for it, there is none."""
+
+    button: str = ""
+
+
+class BrowserWords(_Part, frozen=True):
+    """What someone who takes part in a browser reads around the program."""
+
+    wrong_link: BrowserPage
+    too_small: BrowserPage
+    full: BrowserPage
+    interrupted: BrowserPage
+    lost: BrowserPage
+    elsewhere: BrowserPage
+    idle: BrowserPage
+    ended: BrowserPage
+    finished: BrowserPage
+    failed: BrowserPage
+
+
 class Texts(_Part, frozen=True):
     """texts.toml."""
 
@@ -203,6 +224,7 @@ class Texts(_Part, frozen=True):
     instructors: InstructorNames
     units: Units
     words: ScreenWords
+    browser: BrowserWords
     check: Page | None = None
     mental_state: Page | None = None
     likert: Page | None = None
