@@ -1,6 +1,6 @@
 """Cronbach's alpha of every composite that a study computes from its forms."""
 
-from analysis.sources.absent import Row
+from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY
 from analysis.sources.frames import StudyData
 from analysis.stats.reliability import cronbach_alpha
@@ -19,7 +19,7 @@ def composite_rows(study: StudyData) -> dict[str, Row]:
         complete = answers.dropna()
         alpha, (lower, upper) = cronbach_alpha(complete)
         values = study.rounds[name].dropna()
-        by_round = study.rounds.groupby("adaptivity")[name].mean().to_dict()
+        means = study.rounds.groupby("adaptivity")[name].mean().dropna().to_dict()
         rows[name] = {
             "items": list(items),
             "rows": len(complete),
@@ -27,6 +27,9 @@ def composite_rows(study: StudyData) -> dict[str, Row]:
             "lower": lower,
             "upper": upper,
             "n": len(values),
-            "mean": {one: float(by_round[one]) for one in ADAPTIVITY if one in by_round},
+            "mean": {
+                one: float(means[one]) if one in means else Absent("nobody answered all of it")
+                for one in ADAPTIVITY
+            },
         }
     return rows
