@@ -13,13 +13,12 @@ from hypothesis import strategies as st
 from game.errors import AnaError
 from game.forms.form import Forms, shown
 from game.forms.items import ChoiceItem, Condition, HeadingItem, ScaleItem, SliderItem
-from game.forms.reading import FormsError, forms_in, read_forms
+from game.forms.reading import FormsError, forms_in, paper_forms, paper_text, read_forms
 from game.study.protocol.conduct import items_in_order
 from game.study.ready import PAPER, ready_forms, ready_names
 from game.study.texts import read_texts
 
 EARLIER = Path(__file__).parents[1] / "data" / "earlier_study"
-TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
 FORM = """
 version = "1"
 [[form]]
@@ -102,18 +101,17 @@ def test_other_toml_is_refused_without_a_traceback(tmp_path: Path, text: str) ->
 def test_items_of_an_earlier_study_are_the_papers_forms() -> None:
     texts = read_texts(EARLIER / "texts.toml")
     old = read_forms(EARLIER, texts.form_pages)
-    new = read_forms(TEMPLATE, None)
+    new = paper_forms()
     assert "items.toml" in old.note
-    assert (new.note, new.name) == ("", "forms.toml")
-    for earlier, later in zip(old.forms.forms, new.forms.forms, strict=True):
+    for earlier, later in zip(old.forms.forms, new.forms, strict=True):
         assert earlier.questions == later.questions
         assert (earlier.id, earlier.place, earlier.order) == (later.id, later.place, later.order)
         assert (earlier.title, earlier.body.strip()) == (later.title, later.body.strip())
 
 
 def test_two_files_of_questions_are_one_too_many(tmp_path: Path) -> None:
-    for folder, name in ((EARLIER, "items.toml"), (TEMPLATE, "forms.toml")):
-        (tmp_path / name).write_text((folder / name).read_text())
+    (tmp_path / "items.toml").write_text((EARLIER / "items.toml").read_text())
+    (tmp_path / "forms.toml").write_text(paper_text())
     with pytest.raises(FormsError, match=r"items\.toml as well"):
         read_forms(tmp_path, None)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from game.forms.reading import FormsError, read_forms
+from game.forms.reading import FormsError, paper_forms, read_forms
 from game.study.study_settings import SettingsError, read_settings
 from game.study.texts import LATER_TEXTS, TextsError, read_texts, shipped_texts
 from game.tables.session_tables import LIKERT_ITEMS, MENTAL_STATES
@@ -75,7 +75,7 @@ def test_a_missing_file_says_how_to_make_one(tmp_path: Path) -> None:
 
 
 def test_the_texts_are_valid_and_ask_what_the_paper_asked() -> None:
-    texts, forms = read_texts(TEMPLATE / "texts.toml"), read_forms(TEMPLATE, None).forms
+    texts, forms = read_texts(TEMPLATE / "texts.toml"), paper_forms()
     assert "18" in texts.consent.agree
     _check, sliders, likert = forms.forms
     assert tuple(slider.id for slider in sliders.questions) == MENTAL_STATES

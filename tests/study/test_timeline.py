@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.forms.reading import read_forms
+from game.forms.reading import paper_forms
 from game.journal.history import Step, history_of
 from game.journal.records import (
     Declined,
@@ -23,8 +21,7 @@ from game.study.course import course
 from game.study.protocol.timeline import Point, next_point
 from game.study.study_settings import InterruptionRules, StudySettings
 
-TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
-TIMELINE = course(read_forms(TEMPLATE, None).forms)
+TIMELINE = course(paper_forms())
 SETTINGS = StudySettings(
     name="test", seed=1, blocks=1, buildings=("one", "two"), practice_building="three"
 )
