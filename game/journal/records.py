@@ -52,7 +52,7 @@ Mode = Literal["free_play", StudyMode]
 STUDY_MODES: tuple[StudyMode, ...] = get_args(StudyMode)
 
 ROUNDS = (1, 2)
-"""The rounds of a study's session."""
+"""The rounds of a session of the paper's study."""
 
 StepEnding = Literal["completed", "timed_out", "interrupted", "void", "unfinished"]
 """How a phase ended, so far."""
@@ -234,15 +234,23 @@ class PracticeChecked(SessionRecord, frozen=True, tag="practice_checked"):
     asked: int
 
 
-class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True):
-    """The slot taken in the ledger, and what its design cell means for both rounds."""
+class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True, omit_defaults=True):
+    """The slot taken in the ledger, and what its design cell means for each round: `buildings` in
+    the order of rounds, and `adaptive_first` if the second of the two `instructors` has the first
+    round (they are a static and an adaptive one where none are named), after which they take
+    turns."""
 
     slot: int
     refill: bool
     memorise_ms: int
     adaptive_first: bool
     static_level: Level
-    buildings: tuple[str, str]
+    buildings: tuple[str, ...]
+    instructors: tuple[str, ...] = ()
+
+    def second_leads(self, round_: int) -> bool:
+        """Whether the second of the two instructors, the adaptive one, leads a round."""
+        return self.adaptive_first is (round_ % 2 == 1)
 
 
 class PhaseStarted(SessionRecord, frozen=True, tag="phase_started"):

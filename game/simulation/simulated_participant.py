@@ -108,7 +108,7 @@ class SimulatedParticipant:
         else:
             self._legs += 1
             purpose = ("practice", self._legs)
-        second = self._round == ROUNDS[1]
+        second = self._round > ROUNDS[0]
         person = BoundedPerson(
             self._traits,
             self._map_of(task.building),

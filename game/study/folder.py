@@ -22,6 +22,7 @@ from secrets import randbelow
 from typing import NamedTuple
 
 from game.coach.spec import DEFAULT_PRESET
+from game.coach.yoke import Yoke
 from game.errors import AnaError, did_you_mean
 from game.forms.form import Forms
 from game.forms.reading import FORMS, paper_text, read_forms
@@ -29,6 +30,7 @@ from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
 from game.study.course import Course, course
+from game.study.donors import donated
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -86,7 +88,7 @@ class Study:
     copy: StudyCopy
     texts: Texts
     forms: Forms
-    buildings: tuple[Building, Building]
+    buildings: tuple[Building, ...]
     practice: Building
     inputs: Mapping[str, str]
     """The SHA-256 of everything that a session is made from, by name."""
@@ -101,7 +103,7 @@ class Study:
     @cached_property
     def course(self) -> Course:
         """The steps of every session."""
-        return course(self.forms)
+        return course(self.forms, self.settings)
 
     @property
     def version(self) -> str:
@@ -142,6 +144,13 @@ class Study:
     def home(self, identity: Identity) -> Path:
         """The folder of one participant's session."""
         return self.folder / SESSIONS / identity.mode / identity.participant
+
+    def yoke_for(self, identity: Identity, building: Building) -> Yoke:
+        """The levels that a yoked instructor repeats for a participant in a building."""
+        other = next(it for it in self.settings.pair if not it.takes("yoke"))
+        modes: tuple[StudyMode, ...] = (identity.mode, "pilot")
+        seed = self.settings.seed
+        return donated(self.folder, modes, identity.participant, building, other, seed)
 
     def building(self, name: str) -> Building:
         """The mission building that the settings call `name`."""
@@ -277,7 +286,7 @@ def open_study(folder: Path) -> Study:
     texts = read_texts(folder / TEXTS)
     forms, asked, note = read_forms(folder, texts.form_pages)
     asked_columns(forms)
-    first, second = (_building(folder, name) for name in settings.buildings)
+    buildings = tuple(_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(
         folder=folder,
@@ -285,13 +294,13 @@ def open_study(folder: Path) -> Study:
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=texts,
         forms=forms,
-        buildings=(first, second),
+        buildings=buildings,
         practice=practice,
         inputs={
             SETTINGS: digest,
             TEXTS: _digest(folder / TEXTS),
             asked: _digest(folder / asked),
-            **{name_of(building): building.hash for building in (first, second, practice)},
+            **{name_of(building): building.hash for building in (*buildings, practice)},
         },
         notes=(note,) if note else (),
     )
@@ -345,7 +354,7 @@ def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], 
             place=str(path.with_name(LEDGER)),
             hint="Restore the ledger from a backup",
         )
-    for name in ("seed", "blocks"):
+    for name in ("seed",) if settings.places else ("seed", "blocks"):
         asked, fixed = getattr(settings, name), getattr(created, name)
         if asked != fixed:
             raise SettingsError(

@@ -18,7 +18,7 @@ from game.forms.reading import paper_forms
 from game.journal.history import History, PhaseSpan, Step, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
-from game.journal.records import ROUNDS, Allocated, ProtocolPhase
+from game.journal.records import Allocated, ProtocolPhase
 from game.tables.asked import FAILED, asked_columns, attention_failed, wider
 from game.tables.mission_tables import MissionTables, level_name
 from game.tables.rows import (
@@ -150,7 +150,7 @@ class _Session:
                 mission,
             )
             for mission in self.history.missions
-            if mission.step.phase == "mission" and mission.step.round in ROUNDS
+            if mission.step.phase == "mission" and mission.step.round
         }
 
     def _building(self, text: str) -> Building:
@@ -161,8 +161,7 @@ class _Session:
     @property
     def rounds(self) -> Iterator[int]:
         """The rounds that were started."""
-        begun = {step.round for step in self.history.phases}
-        return (number for number in ROUNDS if number in begun)
+        return iter(sorted({step.round for step in self.history.phases if step.round}))
 
     @property
     def allocated(self) -> Allocated:
@@ -175,8 +174,7 @@ class _Session:
         return self.history.allocated
 
     def adaptivity(self, round_: int) -> InstructorKind:
-        first = self.allocated.adaptive_first is (round_ == ROUNDS[0])
-        return "adaptive" if first else "static"
+        return "adaptive" if self.allocated.second_leads(round_) else "static"
 
     def tables(self) -> Tables:
         missions = tuple(self.missions.values())
@@ -201,6 +199,7 @@ class _Session:
         history, allocated = self.history, self.history.allocated
         terminal, practice = history.terminal, history.practice
         kinds = self.disobeyed(self.missions.values())
+        two = allocated is not None and len(allocated.buildings) > 1
         asked = {it.name: it.value(history, 0) for it in self._columns if it.table != "rounds"}
         failed = attention_failed(self._forms, history)
         if failed is not None:
@@ -221,7 +220,7 @@ class _Session:
             order=_order(allocated) if allocated else None,
             memorise_minutes=allocated.memorise_ms / MS_PER_MINUTE if allocated else None,
             first_building=allocated.buildings[0] if allocated else None,
-            second_building=allocated.buildings[1] if allocated else None,
+            second_building=allocated.buildings[1] if allocated and two else None,
             quiz_static=self.quiz_before("static"),
             quiz_adaptive=self.quiz_before("adaptive"),
             disobeyed=len(kinds),

@@ -108,7 +108,7 @@ class LiveJournal:
         self._path = path
         self._offset = 0
         self._decode = msgspec.json.Decoder(Record).decode
-        self.buildings = ("", "")
+        self.buildings: tuple[str, ...] = ()
         self.missions: list[Walk] = []
         self.read_on()
 

@@ -37,7 +37,7 @@ def test_the_template_is_valid_and_hides_score_and_pause(study_toml: Path) -> No
     assert settings.buildings == ("one", "two")
     assert not settings.mission.show_score
     assert not settings.mission.allow_pause
-    assert settings.memorise_ms(long=True) == 180_000
+    assert settings.memorise_ms(1) == 180_000
     assert len(digest) == 64
 
 

@@ -21,10 +21,10 @@ from game.study.course import course
 from game.study.protocol.timeline import Point, next_point
 from game.study.study_settings import InterruptionRules, StudySettings
 
-TIMELINE = course(paper_forms())
 SETTINGS = StudySettings(
     name="test", seed=1, blocks=1, buildings=("one", "two"), practice_building="three"
 )
+TIMELINE = course(paper_forms(), SETTINGS)
 VOIDING = StudySettings(
     name="test",
     seed=1,

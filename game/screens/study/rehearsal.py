@@ -33,7 +33,6 @@ from game.screens.widgets.program import Program
 from game.screens.widgets.signs import Signs
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
-from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study
 from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
@@ -231,8 +230,10 @@ class _Rehearsal(SimulatedParticipant):
 async def rehearse(study: Study) -> list[Rehearsed]:
     """Every page of the study, in the order of a session with the longest memorise time. Nothing is
     written to the study's folder."""
-    cells = (design_cell(study.settings.seed, "pilot", slot) for slot in range(BLOCK))
-    slot, cell = next((n, it) for n, it in enumerate(cells) if it.long_memorise)
+    design, seed = study.settings.design, study.settings.seed
+    cells = (design.cell(seed, "pilot", slot) for slot in range(design.block))
+    longest = design.memorise - 1
+    slot, cell = next((n, it) for n, it in enumerate(cells) if it.memorise == longest)
     held = HeldStudy(
         **{name: getattr(study, name) for name in study.__dataclass_fields__ if name != "folder"},
         folder=Path(os.devnull),

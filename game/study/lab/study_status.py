@@ -13,7 +13,6 @@ from pathlib import Path
 import msgspec
 
 from game.forms.reading import BLANK, read_forms
-from game.study.design import BLOCK
 from game.study.folder import LEDGER, SETTINGS, kept_copy
 from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.lab.hindrances import Hindrances, not_come
@@ -23,7 +22,6 @@ from game.study.ledger import (
     LedgerEntry,
     SessionOutcome,
     SlotTaken,
-    StudyCreated,
     Unblinded,
     agreed_inputs,
     ending_of,
@@ -164,13 +162,11 @@ def _totals(
         if isinstance(entry, SessionOutcome) and entry.mode == "live"
     }
     ended = Counter(ending_of(entries, person, "live") for person in people)
-    created = [entry.blocks for entry in entries if isinstance(entry, StudyCreated)]
     slots = {
         entry.slot for entry in entries if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    blocks = created[0] if created else settings.blocks
     return Totals(
-        places=blocks * BLOCK,
+        places=settings.all_places,
         taken=len(slots),
         started=sum(states.values()) + ended["withdrawn"],
         taking_part=states["taking part"],

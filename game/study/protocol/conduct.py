@@ -13,13 +13,13 @@ from contextlib import suppress
 from typing import Literal, Protocol
 
 from game.coach.knowledge.assumed import QuizMark
-from game.coach.spec import CoachSpec, coach_given
+from game.coach.spec import CoachSpec
+from game.coach.yoke import Yoke
 from game.errors import AnaError, where
 from game.forms.form import Form
 from game.forms.items import HeadingItem, Item
 from game.journal.history import History, Step
 from game.journal.records import (
-    ROUNDS,
     Allocated,
     Consented,
     Debriefed,
@@ -129,6 +129,9 @@ async def _to_the_end(session: StudySession, who: Participant) -> Page:
             await session.see_place()
         while (step := (point := _next(session)).step) is not None:
             await _settle(session, point)
+            if step.round and session.history.allocated is None:
+                session.enter(step)
+                await session.allocate()
             await _PHASES.get(step.phase, _form)(session, who, step, point.exposure_ms)
     except NoPlace:
         await session.turn_away()
@@ -266,7 +269,12 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     await who.read(followed(page, texts.level_key.text) if rules.level_key else page)
     await _start(session, step, rules.duration_ms)
     quiz = quiz_marks(session.history, building, step.round)
-    spec = instructor(await _allocated(session), step.round, study.settings, quiz)
+    allocated = await _allocated(session)
+    leads = study.settings.pair[allocated.second_leads(step.round)]
+    yoke = None
+    if leads.takes("yoke"):
+        yoke = await asyncio.to_thread(study.yoke_for, session.identity, building)
+    spec = instructor(allocated, step.round, study.settings, quiz, yoke)
     task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
     assert task.run is not None
@@ -362,14 +370,16 @@ _PHASES: dict[str, Callable[[StudySession, Participant, Step, int], Awaitable[No
 
 
 def instructor(
-    allocated: Allocated, round_: int, settings: StudySettings, quiz: dict[str, QuizMark]
+    allocated: Allocated,
+    round_: int,
+    settings: StudySettings,
+    quiz: dict[str, QuizMark],
+    yoke: Yoke | None = None,
 ) -> CoachSpec:
-    """Who coaches a round. Only a coach that asks for the round's label quiz is given it."""
-    if allocated.adaptive_first is (round_ == ROUNDS[0]):
-        return coach_given(
-            settings.coach, level=allocated.static_level, preset=settings.preset, quiz=quiz
-        )
-    return CoachSpec("static", level=allocated.static_level)
+    """Who coaches a round. Only a coach that asks for the round's label quiz is given it, and only
+    one that repeats the levels of another mission, `yoke`."""
+    leads = settings.pair[allocated.second_leads(round_)]
+    return leads.spec(allocated.static_level, settings.preset, quiz, yoke)
 
 
 async def _allocated(session: StudySession) -> Allocated:
