@@ -18,6 +18,7 @@ from game.forms.items import (
 from game.journal.clock import VirtualClock
 from game.journal.records import ROUNDS, Preflighted, Terminal
 from game.rescuers.driver import drive
+from game.rescuers.interpreter import interpreted
 from game.rescuers.person import BoundedPerson, MapMemory, Population, drawn, memorised
 from game.rescuers.person.experience import Experience
 from game.rescuers.person.memory import nothing_memorised
@@ -124,7 +125,8 @@ class SimulatedParticipant:
 
         if task.goals is None:
             self._experiences[self._round] = person.experience
-        drive(run, person, passing=passing, done=lambda: task.done)
+        reader = interpreted(person, self._session.study.phrases, task.building)
+        drive(run, reader, passing=passing, done=lambda: task.done)
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
         for question in self._asked(page, sheet):

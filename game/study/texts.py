@@ -14,14 +14,15 @@ from game.errors import AnaError
 from game.forms.checks import told_apart
 from game.forms.placeholders import check_placeholders
 from game.forms.reading import Pages
+from game.mission_words import MissionWords
 from game.world.events import LevelWish
 
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
     "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
-    "clock_stopped", "mission_goes_on", "leave_now",
-    "mark", "space", "write", "whole_number",
+    "clock_stopped", "mission_goes_on", "leave_now", "mission",
+    "mark", "write", "whole_number",
 )  # fmt: skip
 """Small words that they lack."""
 
@@ -168,12 +169,12 @@ class ScreenWords(_Part, frozen=True):
     mission_goes_on: str
     leave_now: str
     mark: str
-    space: str
     write: str
     whole_number: str
     size_fine: str
     press_keys: str
     keys_fine: str
+    mission: MissionWords
     busy: Page
     trouble: Page
     fault: str

@@ -17,7 +17,8 @@ EARLIER = Path(__file__).parents[1] / "data" / "earlier_study"
 def earlier_study(folder: Path) -> Study:
     """A small study as an earlier version made it."""
     small_study(folder)
-    (folder / "forms.toml").unlink()
+    for name in ("forms.toml", "instructions.toml"):
+        (folder / name).unlink()
     for name in ("items.toml", "texts.toml"):
         shutil.copy(EARLIER / name, folder / name)
     return open_study(folder)
@@ -34,7 +35,11 @@ def told(study: Study) -> list[dict[str, Any]]:
 
 def test_its_questions_are_read_as_forms_with_a_note(tmp_path: Path) -> None:
     study = earlier_study(tmp_path / "earlier")
-    assert study.files == ("study.toml", "texts.toml", "items.toml")
+    assert [name for name in study.inputs if name.endswith(".toml")] == [
+        "study.toml",
+        "texts.toml",
+        "items.toml",
+    ]
     (note,) = study.notes
     assert "items.toml" in note
     assert "forms.toml" in note

@@ -158,7 +158,7 @@ class FormScreen(StudyScreen[bool]):
             left = words.still_open.replace("{count}", str(missing))
             self.show_keys(*keys, turn, remark=left)
         else:
-            self.show_keys(*keys[:1], turn, ("Enter", words.go_on))
+            self.show_keys(*keys[:1], turn, (self.frame.keys.enter, words.go_on))
 
     def _look(self, question: AnyQuestion) -> AnswerLook:
         here = question.id == self.asked.id
@@ -172,26 +172,30 @@ class FormScreen(StudyScreen[bool]):
         )
 
     def _keys(self, question: AnyQuestion) -> list[tuple[str, str]]:
-        words = self.frame.words
+        words, names = self.frame.words, self.frame.keys
         digits = f"1-{min(9, question.most)}"
         match question:
             case SliderItem():
-                leap = [] if self.scrolls else [("PgUp PgDn", f"±{STEP}")]
+                leap = [] if self.scrolls else [(names.page, f"±{STEP}")]
                 keys = [("← →", words.move), ("0-9", words.number), *leap]
             case ScaleItem():
                 keys = [("← →", words.answer), (digits, words.answer)]
             case ChoiceItem(several=True):
-                keys = [("← →", words.choose), (words.space, words.mark), (digits, words.mark)]
+                keys = [
+                    ("← →", words.choose),
+                    (names.space, words.mark),
+                    (digits, words.mark),
+                ]
             case ChoiceItem():
                 keys = [("← →", words.choose), (digits, words.choose)]
             case NumberItem():
                 keys = [("0-9", words.number)]
             case TextItem():
-                keys = [("A-Z", words.write)]
+                keys = [(names.letters, words.write)]
         if self.writing and not isinstance(question, TextItem):
-            keys = [*keys[:-1], ("A-Z", words.write)]
+            keys = [*keys[:-1], (names.letters, words.write)]
         if not question.required and self.sheet.value(question) is not None and not self.writing:
-            keys.append(("Del", words.clear))
+            keys.append((names.delete, words.clear))
         return keys
 
     # --- keys -------------------------------------------------------------------------------------

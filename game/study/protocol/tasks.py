@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.spec import CoachSpec
 from game.forms.form import shown
 from game.forms.items import OTHER, Answer, AnyQuestion, ChoiceItem, HeadingItem, Item, TextItem
@@ -286,8 +287,16 @@ class Playing:
 
     def begin(self) -> MissionRun:
         """Begin the mission, at 0 ms."""
-        self.run = begin_mission(self.journal, self.building, self.settings, self.spec, self._seed)
+        self.run = begin_mission(
+            self.journal, self.building, self.settings, self.spec, self._seed,
+            phrases=self.phrases,
+        )  # fmt: skip
         return self.run
+
+    @property
+    def phrases(self) -> Phrasebook:
+        """What the instructor says."""
+        return self._session.study.phrases
 
     @property
     def done(self) -> bool:

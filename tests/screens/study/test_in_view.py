@@ -18,7 +18,7 @@ from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
 from game.screens.study.rehearsal import Make, _Showing, painted
-from game.study.look import LOOK
+from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Sheet
 from game.study.study_settings import ScreenSize
