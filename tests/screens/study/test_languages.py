@@ -147,6 +147,15 @@ def test_a_language_that_there_is_not_is_refused(
     assert not (tmp_path / "study").exists()
 
 
+def test_a_sentence_for_a_misspelt_room_is_found(tmp_path: Path) -> None:
+    new_study(tmp_path / "study", seed=3, blocks=1, language="de")
+    path = tmp_path / "study" / "instructions.toml"
+    path.write_text(path.read_text().replace('"Goto Empfang"', '"Goto Empfnag"'))
+    (found,) = shortfalls(open_study(tmp_path / "study"))
+    assert "has a room 'Empfnag'. Did you mean Empfang?" in found
+    assert re.match(r"instructions.toml, line \d+: ", found)
+
+
 def test_study_check_names_the_line_of_a_sentence_that_is_wrong(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
