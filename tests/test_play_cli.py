@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from game.cli import main
-from game.commands.ana_play import assigned, day_seed, options_of
+from game.commands.ana_play import assigned, options_of
 from game.errors import AnaError
 from game.world import load_building
 from game.world.placing import placed_anew
 from game.world.settings import MissionSettings
-from game.world.variant import Variant
+from game.world.variant import Variant, day_seed
 
 GIVEN = {
     "building": "harbour",

@@ -22,7 +22,7 @@ from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED
 from game.world.settings import FREE_PLAY, Controls, MissionSettings
-from game.world.variant import Difficulty, Variant, Victims, varied, with_demands
+from game.world.variant import Difficulty, Variant, Victims, day_seed, varied, with_demands
 
 DEFAULT_BUILDING = "harbour"
 MINUTE_MS = 60_000
@@ -146,6 +146,7 @@ def play_in_text(options: PlayOptions) -> int:
         typed_lines(),
         sys.stdout,
         memorise_ms=options.memorise_ms,
+        variant=options.variant,
     )
 
 
@@ -194,12 +195,8 @@ def options_of(
         log_dir=log or sessions_folder(),
         variant=variant,
         drawn=drawn,
+        onward="same" if today else "seed",
     )
-
-
-def day_seed(now: datetime) -> int:
-    """The seed of the mission of the day: 20261126 on 26 November 2026 (UTC)."""
-    return int(f"{now.astimezone(UTC):%Y%m%d}")
 
 
 def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:

@@ -74,6 +74,23 @@ def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> No
         click.echo("This is a first translation: let a native speaker read it before you use it.")
 
 
+@study_group.command("demo", short_help="Make a study half-way through, to try things on.")
+@_FOLDER
+@click.option("--participants", type=click.IntRange(6, 480), default=48, show_default=True,
+              metavar="N", help="How many simulated people have come.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True,
+              help="Seed for everything.")  # fmt: skip
+def make_demonstration(folder: Path, participants: int, seed: int) -> None:
+    """Make the study DIR with simulated people in it, about half of whose places are taken.
+
+    Try status, export, the analysis and the notebooks on it, and take part in it yourself. It takes
+    about a minute.
+    """
+    from game.commands.ana_study_demo import demonstration
+
+    demonstration(folder, participants, seed)
+
+
 @study_group.command("run", short_help="Let a participant take part here.")
 @_ANY_FOLDER
 @click.option("--participant", required=True, metavar="ID", help="A pseudonym, such as P01.")

@@ -19,11 +19,12 @@ from game.screens.widgets.minimap import (
     SmallMap,
     map_size,
 )
-from game.world.building import Severity, VictimSite
+from game.world.building import VictimSite
 from game.world.geometry import Cell, Heading
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
 from game.world.labels import label_lines
 from game.world.observation import VictimState
+from game.world.picture import VICTIM_SIGNS
 from game.world.plan import Tile
 
 STAGES = 4
@@ -60,7 +61,7 @@ def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
         return "✓", "rescued"
     if state is VictimState.EXPIRED:
         return "✗", "expired"
-    return ("●", "red") if victim.severity is Severity.RED else ("○", "blue")
+    return VICTIM_SIGNS[victim.severity], str(victim.severity)
 
 
 def path_map(story: MissionStory, *, columns: int, filled: bool) -> list[Row]:

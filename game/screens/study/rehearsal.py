@@ -33,13 +33,13 @@ from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
 from game.screens.widgets.signs import Signs
+from game.screens.widgets.theme import Look
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
 from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study
 from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
-from game.study.look import Look
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
 from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from time import monotonic
 from typing import ClassVar
@@ -13,6 +14,7 @@ from game.coach.instructions.c1 import MOST_LEGS, UTILIZE
 from game.coach.instructions.phrasebook import Phrasebook, everything_said
 from game.coach.instructions.vocabulary import Tuples
 from game.screens.widgets.canvas import Canvas, Row, wrapped
+from game.screens.widgets.program import Program
 from game.world.observation import Guidance
 
 LINES = 3
@@ -21,8 +23,28 @@ FLASH_S = 0.6
 """How long a new instruction stands out."""
 
 
+_SENTENCE = re.compile(r"(?<=[.!?]) +")
+
+
+def sentences_in_rows(text: str, columns: int) -> list[str]:
+    """A text in rows of `columns`: broken between sentences where that takes no more rows."""
+    rows = wrapped(text, columns)
+    whole: list[str] = []
+    for sentence in _SENTENCE.split(text) if len(rows) > 1 else ():
+        if whole and cell_len(whole[-1]) + 1 + cell_len(sentence) <= columns:
+            whole[-1] += f" {sentence}"
+        else:
+            whole += wrapped(sentence, columns)
+    return whole if 0 < len(whole) <= len(rows) else rows
+
+
 def bar_rows(
-    guidance: Guidance, columns: int, *, fresh: bool = False, lines: int = LINES
+    guidance: Guidance,
+    columns: int,
+    *,
+    fresh: bool = False,
+    lines: int = LINES,
+    by_sentence: bool = True,
 ) -> list[Row]:
     """Notice and instruction, wrapped into at least `lines` rows of `columns`.
 
@@ -33,7 +55,8 @@ def bar_rows(
     if not guidance.text:
         guidance = Guidance(guidance.notice)
     wide = max(1, columns - 4)
-    rows: list[Row] = [((line, style),) for line in wrapped(guidance.text, wide)]
+    text = sentences_in_rows(guidance.text, wide) if by_sentence else wrapped(guidance.text, wide)
+    rows: list[Row] = [((line, style),) for line in text]
     above = max(0, lines - len(rows) + 1) // 2
     if guidance.notice:
         told = wrapped(guidance.notice, wide - 2)
@@ -111,7 +134,14 @@ class InstructionBar(Canvas):
     def _draw(self) -> None:
         if self.size.width:
             fresh = self._fresh_until > 0
-            rows = bar_rows(self._guidance, self.size.width, fresh=fresh, lines=self.lines)
+            by_sentence = not isinstance(self.app, Program) or self.app.look > 1
+            rows = bar_rows(
+                self._guidance,
+                self.size.width,
+                fresh=fresh,
+                lines=self.lines,
+                by_sentence=by_sentence,
+            )
             self.draw(rows)
 
     def on_resize(self) -> None:
