@@ -24,7 +24,8 @@ from game.study.lab.readiness import shortfalls
 from game.study.languages import Translation, languages
 from game.world import load_building
 
-JAPANESE = Path("tests/data/japanese")
+ROOT = Path(__file__).parents[3]
+GERMAN, JAPANESE = ROOT / "game/study/languages/de", ROOT / "tests/data/japanese"
 ROOMS = (
     *("図書室", "会議室", "受付", "食堂", "倉庫", "書庫", "作業場", "休憩室", "研究室", "応接室"),
     *("放送室", "暗室", "中庭", "給湯室", "医務室", "事務室", "電算室", "資料室", "印刷室", "台所"),
@@ -70,11 +71,11 @@ def test_nobody_in_a_german_study_reads_english(tmp_path: Path) -> None:
 @pytest.mark.parametrize("columns", [80, 100, 120, 200])
 @pytest.mark.parametrize("language", ["en", "de", "ja"])
 def test_the_bar_keeps_its_height_and_cuts_nothing(language: str, columns: int) -> None:
-    source = {"de": "game/study/languages/de", "ja": str(JAPANESE)}.get(language)
+    source = {"de": GERMAN, "ja": JAPANESE}.get(language)
     phrases = english()
     if source:
-        text = (Path(source) / "instructions.toml").read_text(encoding="utf-8")
-        phrases = parse_phrasebook(text, source)
+        text = (source / "instructions.toml").read_text(encoding="utf-8")
+        phrases = parse_phrasebook(text, language)
     lines = lines_needed(phrases, ROOMS, columns)
     assert 3 <= lines <= 4
     for guidance in longest_guidance(phrases, ROOMS):
@@ -118,11 +119,11 @@ def keys(tree: object) -> set[str]:
     return {path for key, it in below for path in (key, *(f"{key}.{one}" for one in keys(it)))}
 
 
-@pytest.mark.parametrize("folder", ["game/study/languages/de", str(JAPANESE)])
-def test_a_translation_has_every_text(folder: str) -> None:
+@pytest.mark.parametrize("folder", [GERMAN, JAPANESE], ids=lambda it: it.name)
+def test_a_translation_has_every_text(folder: Path) -> None:
     """Older study folders may lack some; a translation that comes with the game may not."""
-    english_texts = Path("game/study/template/texts.toml").read_text(encoding="utf-8")
-    translated = (Path(folder) / "texts.toml").read_text(encoding="utf-8")
+    english_texts = (ROOT / "game/study/template/texts.toml").read_text(encoding="utf-8")
+    translated = (folder / "texts.toml").read_text(encoding="utf-8")
     assert keys(tomllib.loads(translated)) >= keys(tomllib.loads(english_texts))
 
 
