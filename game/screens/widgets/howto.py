@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import ClassVar
+from typing import ClassVar, Protocol, runtime_checkable
 
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -13,6 +13,7 @@ from textual.screen import Screen
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.keymap import USUAL_KEYS, KeyMap
 from game.screens.widgets.statuspanel import clock_text
 from game.world.geometry import Heading
 from game.world.settings import FREE_PLAY, MissionSettings
@@ -51,17 +52,18 @@ _BESIDE = 52
 """from this column on."""
 
 
-def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
+def howto_rows(glyphs: GlyphSet, rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[Row]:
     """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
     in_time = red_time(rules)
     long = [_sign(glyphs, *sign, in_time) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
     short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
-    others = [("+ -", "simpler or shorter words")] if rules.level_key else []
-    others += [("P", "pause")] if rules.allow_pause else []
-    others += [("?", "help"), ("Q", "leave")]
+    wishes = f"{keys.label('simpler')} {keys.label('shorter')}"
+    others = [(wishes, "simpler or shorter words")] if rules.level_key else []
+    others += [(keys.label("pause"), "pause")] if rules.allow_pause else []
+    others += [(keys.label("help"), "help"), (keys.label("leave"), "leave")]
     return [
         _heading("Rescue as many victims as you can. The yellow bar guides you."),
-        *walking_rows(turning=rules.controls == "turn"),
+        *walking_rows(turning=rules.controls == "turn", keys=keys),
         tuple(run for key, does in others for run in _key(f" {key} ", does)),
         BLANK,
         _heading("What you see"),
@@ -74,9 +76,16 @@ def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     ]
 
 
-def walking_rows(*, turning: bool) -> list[Row]:
+def walking_rows(*, turning: bool, keys: KeyMap = USUAL_KEYS) -> list[Row]:
     """The keys by which the rescuer acts."""
-    return _keys(_TURN_KEYS if turning else _COMPASS_KEYS)
+    treat = keys.label("treat"), _COMPASS_KEYS[-1][1]
+    usual = _TURN_KEYS if turning else _COMPASS_KEYS
+    if not keys.walking:
+        return _keys((*usual[:-1], treat))
+    if turning:
+        turn = f"{keys.label('left')} {keys.label('right')}"
+        return _keys([(keys.label("up"), "walk the way you face"), (turn, "turn"), treat])
+    return _keys([(keys.walking, "walk"), treat])
 
 
 def sign_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
@@ -121,6 +130,13 @@ def _levels() -> Iterable[Row]:
     yield ((f"{_MARGIN:20}", ""), words, (" means: press ", ""), (" Space ", "key"))
 
 
+@runtime_checkable
+class HasKeys(Protocol):
+    """A program that knows the keys of missions."""
+
+    keys: KeyMap
+
+
 class HowTo(Canvas):
     """The page as a widget."""
 
@@ -132,7 +148,8 @@ class HowTo(Canvas):
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw(howto_rows(glyphs, self._rules))
+        keys = self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
+        self.draw(howto_rows(glyphs, self._rules, keys))
 
 
 class HowToScreen(Screen[None]):
