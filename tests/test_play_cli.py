@@ -36,6 +36,14 @@ def test_the_options_define_the_mission() -> None:
     assert (options.seed, options.log_dir) == (7, Path("here"))
 
 
+def test_the_controls_are_an_option() -> None:
+    for controls in ("compass", "turn"):
+        options = options_of(**{**GIVEN, "controls": controls})  # type: ignore[arg-type]
+        assert options.settings.controls == controls
+    usual = options_of(**{**GIVEN, "assignments": ("controls=turn",)})  # type: ignore[arg-type]
+    assert usual.settings.controls == "turn"
+
+
 def test_a_difficulty_is_a_set_of_settings_that_others_override() -> None:
     options = options_of(**{**GIVEN, "difficulty": "hard", "minutes": 1})  # type: ignore[arg-type]
     assert (options.settings.sight_radius, options.settings.duration_ms) == (4, 60_000)

@@ -21,7 +21,7 @@ from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED
-from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.settings import FREE_PLAY, Controls, MissionSettings
 from game.world.variant import Difficulty, Variant, Victims, day_seed, varied, with_demands
 
 DEFAULT_BUILDING = "harbour"
@@ -82,6 +82,12 @@ def mission_options(command: _Command) -> _Command:
             type=click.Path(path_type=Path, file_okay=False),
             metavar="DIR",
             help="The folder for journals.  [default: data/sessions]",
+        ),
+        click.option(
+            "--controls",
+            type=click.Choice(get_args(Controls)),
+            help="What the arrows do: go in four directions (compass), or turn left and right and "
+            "go ahead (turn).  [default: compass]",
         ),
         click.option("--minutes", type=float, help="How long the mission lasts.  [default: 4]"),
         click.option(
@@ -157,9 +163,12 @@ def options_of(
     victims: Victims | None = None,
     difficulty: Difficulty = "standard",
     today: bool = False,
+    controls: Controls | None = None,
 ) -> PlayOptions:
     """The mission defined by `mission_options`. Raises AnaError, naming the option."""
     settings = assigned(with_demands(FREE_PLAY, difficulty), assignments)
+    if controls is not None:
+        settings = replace(settings, controls=controls)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
     if today and seed is not None:

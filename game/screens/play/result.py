@@ -95,14 +95,13 @@ def total_rows(story: MissionStory) -> list[Row]:
         (f"{story.rescued} of {total} rescued", "big"),
         (f"   {saved[Severity.RED]} red, {saved[Severity.BLUE]} blue", "quiet"),
         (f"   {lost} not reached in time" if lost else "", "quiet"),
+        ("   unseen victims are not shown" if len(story.revealed) < total else "", "quiet"),
     )
     if story.settings.show_score:
         first = (*first, (f"   {story.score} points", "big"))
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
     left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
-    if len(story.revealed) < total:
-        told = "The victims you had not seen are not shown, so that you can play it as new."
     where = ", ".join(filter(None, (story.building.name, story.unusual)))
     return [first, ((left, "big"), (f"{where} · {told}", "quiet"))]
 
