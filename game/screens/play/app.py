@@ -114,6 +114,7 @@ class AnaApp(Program, inherit_bindings=False):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+z", "stand_aside", id="app.suspend", priority=True),
         Binding("f2", "settings", id="app.settings"),
+        Binding("question_mark,f1", "help", id="app.help"),
     ]
     CSS_PATH: ClassVar[list[str | PurePath]] = [
         "../widgets/styles/base.tcss",
@@ -259,6 +260,13 @@ class AnaApp(Program, inherit_bindings=False):
         if preferences != self.preferences:
             self.preferences = preferences
             save_preferences(self._preferences_file, preferences)
+
+    def action_help(self) -> None:
+        """How to play, over a screen that has no help of its own."""
+        from game.screens.widgets.dialogs import Help
+
+        if not isinstance(self.screen, ModalScreen):
+            self.push_screen(Help(self._rules_of(self.preferences.difficulty), key="Back"))
 
     def action_settings(self) -> None:
         """The settings, over whatever is shown."""

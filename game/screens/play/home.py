@@ -12,7 +12,6 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.message import Message
-from textual.screen import Screen
 
 from game.screens.play.menu import Item, after, menu_rows
 from game.screens.play.past_missions import (
@@ -25,6 +24,7 @@ from game.screens.play.past_missions import (
 )
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
+from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.preferences import Preferences
 from game.world import load_building
 from game.world.library import GENERATED
@@ -100,7 +100,7 @@ def menu_items(preferences: Preferences, reached: str = "", seed: str = "") -> t
     )
 
 
-class HomePage(Canvas):
+class HomePage(ClickCanvas):
     """Title, scene and menu."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "letters", "subtitle", "item", "selected"}
@@ -125,11 +125,16 @@ class HomePage(Canvas):
         block = [*title, *(scene if fits else ()), *menu]
         self.draw([centred(row, columns) if width(row) else row for row in block])
 
+    def item_at(self, row: int) -> int | None:
+        """The menu's item in a row of the page."""
+        number = row - (len(self.rows) - len(self._items))
+        return number if number >= 0 else None
+
     def on_resize(self) -> None:
         self.show(self._items, self._selected)
 
 
-class HomeScreen(Screen[None]):
+class HomeScreen(Pointed):
     """Lets one choose what to do; the app does it."""
 
     class Wanted(Message):
@@ -217,6 +222,13 @@ class HomeScreen(Screen[None]):
         if top is None:
             return ""
         return f"best {top.rescued}, last time {max(such, key=lambda it: it.at).rescued}"
+
+    def on_row_clicked(self, message: RowClicked) -> None:
+        number = self._page.item_at(message.row)
+        if number is not None:
+            self._selected = number
+            self._show()
+            self.action_choose()
 
     def action_move(self, way: int) -> None:
         self._selected = (self._selected + way) % len(self._items())

@@ -13,8 +13,8 @@ from textual.widgets import Static
 
 from game.screens.play.home import CONTROLS
 from game.screens.play.menu import Item, after, menu_rows
-from game.screens.widgets.canvas import Canvas
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.preferences import Preferences
 
 _THEMES = {None: "as the terminal says", "dark": "dark", "light": "light"}
@@ -37,13 +37,13 @@ def settings_items(preferences: Preferences) -> list[Item]:
     ]
 
 
-class SettingsList(Canvas):
+class SettingsList(ClickCanvas):
     """The settings as a widget."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {"item", "selected"}
 
 
-class SettingsScreen(ModalScreen[None]):
+class SettingsScreen(Pointed, ModalScreen[None]):
     """Each change holds at once: `changed` is given the new preferences."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -77,6 +77,10 @@ class SettingsScreen(ModalScreen[None]):
 
     def _show(self) -> None:
         self._list.draw(menu_rows(settings_items(self._preferences), self._selected))
+
+    def on_row_clicked(self, message: RowClicked) -> None:
+        self._selected = message.row
+        self.action_change(1)
 
     def action_move(self, way: int) -> None:
         self._selected = (self._selected + way) % len(_CHOICES)

@@ -131,4 +131,4 @@ class StartScreen(Screen[None]):
         self.app.post_message(self.Wanted(what, self._begin))
 
     def action_help(self) -> None:
-        self.app.push_screen(Help(self._rules))
+        self.app.push_screen(Help(self._rules, key="Back"))
