@@ -12,6 +12,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.message import Message
+from textual.screen import Screen
 
 from game.screens.play.menu import Item, after, menu_rows
 from game.screens.play.past_missions import (
@@ -134,7 +135,7 @@ class HomePage(ClickCanvas):
         self.show(self._items, self._selected)
 
 
-class HomeScreen(Pointed):
+class HomeScreen(Pointed, Screen[None]):
     """Lets one choose what to do; the app does it."""
 
     class Wanted(Message):

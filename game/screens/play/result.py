@@ -12,6 +12,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.message import Message
+from textual.screen import Screen
 
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
@@ -281,7 +282,7 @@ class PageNames(ClickCanvas):
         self.draw([tuple(row)])
 
 
-class ResultScreen(Pointed):
+class ResultScreen(Pointed, Screen[None]):
     """Shows a finished mission on a few pages: totals and charts, the way, people, words."""
 
     class Wanted(Message):

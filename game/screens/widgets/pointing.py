@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any
 
 from textual import events
 from textual.app import ScreenStackError
 from textual.message import Message
-from textual.screen import Screen
+from textual.message_pump import MessagePump
 
 from game.screens.widgets.canvas import Canvas
 from game.screens.widgets.terminal_driver import TerminalDriver
@@ -32,8 +31,9 @@ class ClickCanvas(Canvas):
             self.post_message(RowClicked(self, event.y, event.x))
 
 
-class Pointed(Screen[Any]):
-    """A screen that listens to the mouse while it is the one in front."""
+class Pointed(MessagePump):
+    """Makes a screen listen to the mouse while it is the one in front. Stands before the kind of
+    screen among the bases; it is no widget itself, so that styles go by that kind."""
 
     def on_screen_resume(self) -> None:
         self._point()

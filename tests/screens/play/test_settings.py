@@ -26,7 +26,9 @@ async def test_settings_hold_at_once_and_from_one_time_to_the_next(
     async with open_app(AnaApp.show_home) as (app, pilot):
         home = await until(pilot, HomeScreen)
         await press(pilot, "f2")
-        await until(pilot, SettingsScreen)
+        settings = await until(pilot, SettingsScreen)
+        dialog = settings.query_one(".dialog").region
+        assert dialog.x > 5 and dialog.y > 2, "in the middle of the window"
         await press(pilot, "right", "right", "down", "right", "down", "right", "down", "right")
         assert app.theme == "ana-light"
         await press(pilot, "escape")
