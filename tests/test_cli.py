@@ -148,7 +148,24 @@ def test_completion_of_an_unknown_shell(capsys: Capture, monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    ("words", "expected"), [("ana doc", ["doctor"]), ("ana doctor --j", ["--json"])]
+    ("words", "expected"),
+    [
+        ("ana doc", ["doctor"]),
+        ("ana doctor --j", ["--json"]),
+        ("ana play --building ha", ["harbour"]),
+        ("ana play --building gen", ["generated:"]),
+        ("ana play --coach yo", ["yoked"]),
+        ("ana play --preset cal", ["calibrated"]),
+        ("ana play --difficulty h", ["hard"]),
+        ("ana play --victims s", ["seeded"]),
+        ("ana play --set controls=t", ["controls=turn"]),
+        ("ana play --set moves", ["moves_per_second=5.0"]),
+        ("ana watch --rescuer new", ["newcomer"]),
+        ("ana building show foun", ["foundry"]),
+        ("ana simulate out --population has", ["hasty"]),
+        ("ana compare --worlds default,ha", ["default,hasty"]),
+        ("ana compare --buildings harbour,f", ["harbour,foundry"]),
+    ],
 )
 def test_the_shell_gets_its_completions(words: str, expected: list[str]) -> None:
     env = os.environ | {
