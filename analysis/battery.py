@@ -5,14 +5,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from analysis.pages.figures import write_figures
 from analysis.report import summary
 from analysis.sources.absent import Absent, Plain, Row, Tree, attempt, plain
 from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
+from analysis.sources.provenance import provenance
 from analysis.sources.samples import left_by
-from analysis.sources.source import load_study
-from analysis.sources.study_folder import Tick
+from analysis.sources.source import load
+from analysis.sources.study_folder import Tick, is_study_folder
+from analysis.stats.adaptivity import adaptivity_tests, why_they_differ
 from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.cellmodel import contrast_row, weights_of
@@ -20,6 +21,8 @@ from analysis.stats.clustering import Clustering
 from analysis.stats.corrections import PValue, holm_by_name
 from analysis.stats.equivalence import paired_row
 from analysis.stats.groups import group_shares, grouped
+from analysis.stats.intervals import SEED as BOOTSTRAP_SEED
+from analysis.stats.level import ALPHA
 from analysis.stats.mixed import mixed_model
 from analysis.stats.order_effects import order_rows
 from analysis.stats.ordinal import ordinal_rows
@@ -34,10 +37,11 @@ from analysis.stats.posthoc import (
     marginal_means,
     simple_adaptivity_within_cell,
 )
+from analysis.stats.power import SEED as POWER_SEED
 from analysis.stats.power import power_rows
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.reliability import alpha_rows
-from analysis.stats.sensitivity import continuous_rows, exclusion_rows
+from analysis.stats.sensitivity import continuous_rows, exclusion_rows, other_grouping_rows
 from game.journal.records import StudyMode
 from game.tables.exclusions import ExclusionRules, read_rules
 
@@ -58,11 +62,13 @@ BY_CELL: Mapping[str, Callable[[RoundModels], Tree]] = {
 class BatteryResult:
     """Everything the battery found about one source.
 
-    `study` is the analysed sample with its groups; `results` the numbers, JSON-ready; `problems`
-    what stopped a planned analysis, each naming the place; `notes` what a reader must know.
+    `study` is the analysed sample with its groups, `randomised` everybody; `results` the numbers,
+    JSON-ready; `problems` what stopped a planned analysis, each naming the place; `notes` what a
+    reader must know.
     """
 
     study: StudyData
+    randomised: StudyData
     results: dict[str, Plain]
     anovas: Mapping[str, list[Effect] | Absent]
     problems: tuple[str, ...]
@@ -82,8 +88,11 @@ class BatteryResult:
         return json.dumps(self.results, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
-    """Run everything on the sample that the primary exclusion rule leaves of all randomised."""
+def run_battery(
+    randomised: StudyData, rules: ExclusionRules, alpha: float = ALPHA
+) -> BatteryResult:
+    """Run everything on the sample that the primary exclusion rule leaves of all randomised; tests
+    are judged at `alpha` and intervals are made for it."""
     sample = left_by(randomised, rules.main())
     study, clustering = grouped(sample.study)
     notes = list(study.notes)
@@ -96,6 +105,15 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         outcome: pair if isinstance(pair, Absent) else attempt(mixed_anova, pair)
         for outcome, pair in pairs.items()
     }
+    tests = {
+        outcome: pair if isinstance(pair, Absent) else attempt(adaptivity_tests, pair)
+        for outcome, pair in pairs.items()
+    }
+    by_outcome: dict[str, Tree] = {
+        outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome], alpha)
+        | {"adaptivity_tests": tests[outcome]}
+        for outcome in OUTCOMES
+    }
     tree: Row = {
         "source": {
             "label": study.label,
@@ -103,20 +121,21 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
             "n_randomised": len(randomised.participants),
             "n_analysed": len(study.participants),
             "exclusion_rule": rules.primary,
+            "alpha_level": alpha,
             "groups": "stated" if sample.study.has("knowledge") else "formed from quiz_static",
         },
         "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
-        "alpha": alpha_rows(study),
-        "outcomes": {
-            outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome])
-            for outcome in OUTCOMES
-        },
+        "alpha": alpha_rows(study, alpha),
+        "outcomes": by_outcome,
         "holm_across_mental_states": holm_across({state: anovas[state] for state in MENTAL_STATES}),
-        "preferred_instructor": attempt(preferred_rows, study),
+        "preferred_instructor": attempt(preferred_rows, study, alpha),
         "ordinal": ordinal_rows(study),
-        "order_and_building": order_rows(study),
+        "order_and_building": order_rows(study, alpha),
         "sensitivity": {
             "exclusions": exclusion_rows(randomised, rules),
+            "other_groupings": other_grouping_rows(study, clustering)
+            if not isinstance(clustering, Absent) and not sample.study.has("knowledge")
+            else Absent("the groups are not formed from quiz scores"),
             "continuous_score": {
                 outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
             },
@@ -124,6 +143,7 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         "power": power_rows(group_shares(study)),
     }
     problems = tuple(_problems(study, clustering, anovas))
+    notes += why_they_differ(tests, alpha)
     values, reasons = plain(tree)
     if not isinstance(values, dict):
         raise TypeError("the results are not a mapping")
@@ -132,22 +152,26 @@ def run_battery(randomised: StudyData, rules: ExclusionRules) -> BatteryResult:
         "notes": list(notes),
         "absent": _by_reason(reasons),
     }
-    return BatteryResult(study, results, anovas, problems, tuple(notes))
+    return BatteryResult(study, randomised, results, anovas, problems, tuple(notes))
 
 
 def outcome_rows(
-    study: StudyData, outcome: str, pair: Paired | Absent, anova: list[Effect] | Absent
+    study: StudyData,
+    outcome: str,
+    pair: Paired | Absent,
+    anova: list[Effect] | Absent,
+    alpha: float = ALPHA,
 ) -> Row:
     """All parts of one outcome; a part that cannot be had is absent with its reason."""
     rows: Row = {
-        "anova": anova if isinstance(anova, Absent) else [effect.row() for effect in anova]
+        "anova": anova if isinstance(anova, Absent) else [effect.row(alpha) for effect in anova]
     }
     people = both_rounds(study, outcome)
     if isinstance(pair, Absent):
         rows |= {"n": len(people), "n_dropped": len(study.participants) - len(people)}
         rows |= dict.fromkeys((*BY_CELL, "alignment", "assumptions", "hc3_diff"), pair)
     else:
-        models = RoundModels.of(pair)
+        models = RoundModels.of(pair, alpha)
         rows |= {"n": len(pair.participants), "n_dropped": pair.n_dropped}
         rows |= {name: make(models) for name, make in BY_CELL.items()}
         rows |= {
@@ -156,7 +180,7 @@ def outcome_rows(
             "hc3_diff": attempt(hc3_rows, pair),
         }
     return rows | {
-        "paired": attempt(paired_row, people),
+        "paired": attempt(paired_row, people, alpha),
         "lmm": attempt(mixed_model, study, outcome),
     }
 
@@ -177,7 +201,7 @@ def alignment_rows(models: RoundModels) -> list[Row]:
             {
                 "contrast": "aligned - misaligned",
                 "of": name,
-                **contrast_row(contrast),
+                **contrast_row(contrast, models.alpha),
                 "p.value": contrast.p,
             }
         )
@@ -202,20 +226,53 @@ def analyse_source(
     figures: Path | None = None,
     mode: StudyMode | None = None,
     *,
+    report: Path | None = None,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
     loaded: Callable[[], object] = lambda: None,
+    alpha: float = ALPHA,
 ) -> BatteryResult:
-    """Read a source as `load_study` does, run the battery, and write the figures if a folder is
-    given. `loaded` is called once the source was read, before anything comes of it.
+    """Read a source as `load` does, run the battery, and write the figures and the report where
+    folders are given. `loaded` is called once the source was read, before anything comes of it.
 
-    Raises SourceError or JournalError where the source cannot be read.
+    Raises SourceError or JournalError where the source cannot be read, OSError where a folder
+    cannot be written.
     """
-    study = load_study(source, quiz, mode, check=check, tick=tick)
+    read = load(source, quiz, mode, check=check, tick=tick)
     loaded()
-    result = run_battery(study, read_rules())
+    rules = read_rules()
+    result = run_battery(read.study, rules, alpha)
+    made = provenance(
+        source,
+        quiz,
+        mode,
+        {
+            "alpha": alpha,
+            "exclusion_rule": rules.primary,
+            "verified": check and is_study_folder(source),
+        },
+        {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED},
+    )
+    values, _ = plain(made.row())
+    result.results["provenance"] = values
     if figures is not None:
-        write_figures(result.study, figures)
+        from analysis.pages.figures import write_figures
+
+        write_figures(result.study, figures, alpha, made.line())
+    if report is not None:
+        from analysis.pages.manuscript import Found, manuscript
+        from analysis.pages.published import PUBLISHED
+        from analysis.pages.results_page import write_report
+
+        found = Found(result.results, result.study, result.randomised, read.recorded, PUBLISHED)
+        write_report(
+            manuscript(found),
+            result.study.label,
+            [*result.problems, *result.notes],
+            made,
+            report,
+            simulated=result.study.simulated,
+        )
     return result
 
 

@@ -9,8 +9,8 @@ from typing import Protocol
 import click
 
 from analysis.battery import analyse_source
-from analysis.sources.source import holds_live_sessions, is_study_source
-from analysis.sources.study_folder import mode_of
+from analysis.sources.source import holds_live_sessions
+from analysis.stats.level import ALPHA
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 
@@ -34,46 +34,68 @@ _PATH = click.Path(path_type=Path)
 @click.command(name="analyse")
 @click.pass_obj
 @click.argument("source", type=_PATH)
-@click.option("--json", "out", required=True, type=_PATH, metavar="OUT.json", help="Where to.")
+@click.option("--json", "out", type=_PATH, metavar="OUT.json", help="Write all numbers there.")
+@click.option("--report", type=_PATH, metavar="DIR",
+              help="Write a results section in the paper's order into DIR.")  # fmt: skip
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
 @click.option("--mode", type=click.Choice(STUDY_MODES),
               help="Which sessions of a study folder, where there are several kinds.")  # fmt: skip
+@click.option("--alpha", type=click.FloatRange(0, 0.5, min_open=True, max_open=True),
+              default=ALPHA, show_default=True,
+              help="Tests are judged at it, and intervals are made for it.")  # fmt: skip
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
 def command(
     game: StudySide,
     source: Path,
-    out: Path,
+    out: Path | None,
+    report: Path | None,
     figures: Path | None,
     quiz: Path | None,
     mode: StudyMode | None,
+    alpha: float,
     check: bool,
 ) -> int:
-    """Analyse SOURCE and write all numbers to OUT.json.
+    """Analyse SOURCE: write all numbers to OUT.json, or a report into DIR.
 
-    SOURCE is a study folder, the tables of one, or one long CSV file. Exit status 2 where a
-    planned analysis could not be made; all others are written all the same. The ledger of a live
-    study that is open records that it was analysed, which unblinds.
+    SOURCE is a study folder, the tables of one, or one table (CSV, .xlsx, .parquet). Exit status 2
+    where a planned analysis could not be made; all others are written all the same. The ledger of
+    a live study that is open records that it was analysed, which unblinds.
+
+    A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
+    beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
-
-    if is_study_source(source):
-        game.refuse_unlike_ledger(source, mode_of(source, mode))
+    if out is None and report is None:
+        raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):
             click.echo(game.unblind(source), err=True, nl=False)
 
-    result = analyse_source(source, quiz, figures, mode, check=check, tick=_tell, loaded=loaded)
     try:
-        out.write_text(result.to_json(), encoding="utf-8")
+        result = analyse_source(
+            source,
+            quiz,
+            figures,
+            mode,
+            report=report,
+            check=check,
+            tick=_tell,
+            loaded=loaded,
+            alpha=alpha,
+        )
+        if out is not None:
+            out.write_text(result.to_json(), encoding="utf-8")
     except OSError as error:
         raise AnaError(
             f"the results cannot be written ({error.strerror})",
-            place=str(out),
-            hint="Give a file in a folder that exists and that you may write to.",
+            place=str(error.filename or out or report),
+            hint="Give a file or folder in a folder that exists and that you may write to.",
         ) from error
     click.echo(result.table())
+    if report is not None:
+        click.echo(f"Open {report / 'results.html'}")
     return result.exit_status
 
 

@@ -5,9 +5,7 @@ from typing import Any
 
 from analysis.sources.absent import Plain
 from analysis.sources.frames import StudyData
-
-#: Comparisons are listed below this Holm-adjusted p.
-SIGNIFICANT = 0.05
+from analysis.stats.apa import bounded, p_value
 
 
 def summary(
@@ -27,7 +25,10 @@ def summary(
         "",
     ]
     for outcome, rows in numbers["outcomes"].items():
-        lines += [*_outcome(outcome, rows, numbers["holm_across_mental_states"]), ""]
+        lines += [
+            *_outcome(outcome, rows, numbers["holm_across_mental_states"], source["alpha_level"]),
+            "",
+        ]
     lines += [f"problem: {problem}" for problem in problems]
     lines += [f"note: {note}" for note in notes]
     return "\n".join(lines).rstrip() + "\n"
@@ -46,7 +47,9 @@ def _alpha(numbers: Mapping[str, Any]) -> float | None:
     return value
 
 
-def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> list[str]:
+def _outcome(
+    outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any], alpha: float
+) -> list[str]:
     lines = [f"{outcome}  (n = {rows['n']}, {rows['n_dropped']} without both rounds or a group)"]
     if rows["anova"] is None:
         lines.append("  no ANOVA; see the problems below")
@@ -55,27 +58,27 @@ def _outcome(outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any]) -> 
             f"  {'effect':<33}{'df':>6}{'F':>9}{'p':>7}{'p Holm':>8}{'eta_p':>7}{'eta_g':>7}"
         )
         lines += [_anova_line(outcome, row, holm) for row in rows["anova"][1:]]
-    lines += _comparisons(rows)
+    lines += _comparisons(rows, alpha)
     if rows["paired"] is not None:
         paired = rows["paired"]
         lines.append(
             f"  adaptive - static: {paired['mean_diff']:+.2f} (d_z {paired['dz']:+.2f}), TOST p "
-            f"{_p(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
+            f"{p_value(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
         )
     return lines
 
 
 def _anova_line(outcome: str, row: Mapping[str, Any], holm: Mapping[str, Any]) -> str:
     df = f"{row['df1']}, {row['df2']}"
-    corrected = _p(holm[row["effect"]][outcome]) if outcome in holm[row["effect"]] else ""
+    corrected = p_value(holm[row["effect"]][outcome]) if outcome in holm[row["effect"]] else ""
     return (
-        f"  {row['effect']:<32}{df:>7}{row['F']:>9.3f}{_p(row['p']):>7}{corrected:>8}"
-        f"{_p(row['pes']):>7}{_p(row['ges_obs_knowledge']):>7}"
+        f"  {row['effect']:<32}{df:>7}{row['F']:>9.3f}{p_value(row['p']):>7}{corrected:>8}"
+        f"{bounded(row['pes']):>7}{bounded(row['ges_obs_knowledge']):>7}"
     )
 
 
-def _comparisons(rows: Mapping[str, Any]) -> list[str]:
-    """Comparisons of the paper's Figs. 7 and 9 that stay below .05 after Holm."""
+def _comparisons(rows: Mapping[str, Any], alpha: float) -> list[str]:
+    """Comparisons of the paper's Figs. 7 and 9 that stay below alpha after Holm."""
     within = [
         (f"{row['knowledge']}, {row['adaptivity']}", row)
         for row in rows["posthoc_complexity_within_knowledge_by_round"] or ()
@@ -85,16 +88,10 @@ def _comparisons(rows: Mapping[str, Any]) -> list[str]:
         for row in rows["posthoc_diff_knowledge_within_complexity"] or ()
     ]
     return [
-        f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {_p(row['p_holm'])}"
+        f"  {where}: {row['contrast']} = {row['estimate']:+.2f}, p Holm {p_value(row['p_holm'])}"
         for where, row in (*within, *between)
-        if row["p_holm"] is not None and row["p_holm"] < SIGNIFICANT
+        if row["p_holm"] is not None and row["p_holm"] < alpha
     ]
-
-
-def _p(value: float | None) -> str:
-    if value is None:
-        return "-"
-    return "<.001" if value < 0.001 else f"{value:.3f}".replace("0.", ".", 1)
 
 
 def _number(value: float | None) -> str:

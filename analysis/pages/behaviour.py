@@ -19,6 +19,7 @@ from analysis.pages.style import (
     LEVEL_COLOURS,
     LEVEL_MARKERS,
     SHADE,
+    TWO_COLUMNS,
     VERMILION,
     Captioned,
     captioned,
@@ -162,7 +163,7 @@ def shares_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool) -> 
     across = min(4, len(parts))
     down = -(-len(parts) // across)
     with quiet_style():
-        figure = Figure(figsize=(7.2, 1.2 + 1.9 * down))
+        figure = Figure(figsize=(TWO_COLUMNS, 1.2 + 1.9 * down))
         panels = figure.subplots(down, across, sharex=True, sharey=True, squeeze=False).ravel()
         for axes in panels[len(parts) :]:
             axes.set_visible(False)
@@ -194,7 +195,7 @@ def verdict_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
     """Which conclusions survive; `table` is that of `conclusion_table`."""
     signs = {"holds": ("+", 2), "open": ("?", 1), "fails": ("\N{MINUS SIGN}", 0)}
     with quiet_style():
-        figure = Figure(figsize=(7.2, 2.6 + 0.3 * len(table)))
+        figure = Figure(figsize=(TWO_COLUMNS, 2.6 + 0.3 * len(table)))
         axes = figure.subplots()
         axes.grid(visible=False)
         codes = table.map(lambda verdict: signs[verdict][1]).to_numpy()
@@ -217,7 +218,7 @@ def verdict_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
             "behaviour_conclusions",
             figure,
             "Published statements against simulated people: blue + holds, red \N{MINUS SIGN} fails "
-            "(the whole 95% interval says so), grey ? is open; look for rows of one colour, which "
+            "(the whole 95% interval says so), grey ? is open; rows of one colour "
             "hang on neither preset nor kind of people.",
             simulated=simulated,
         )
@@ -227,7 +228,7 @@ def separation_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool)
     """AUC of the mean P(g*), HIGH above LOW, for each group of studies."""
     parts = _studies(missions, by)
     with quiet_style():
-        figure = Figure(figsize=(7.2, 1.5 + 0.28 * len(parts)))
+        figure = Figure(figsize=(TWO_COLUMNS, 1.5 + 0.28 * len(parts)))
         axes = figure.subplots()
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")

@@ -9,15 +9,17 @@ from matplotlib.figure import Figure
 from analysis.pages.mission_rows import with_groups
 from analysis.pages.style import (
     BLUE,
+    GROUP_COLOURS,
+    GROUP_LINES,
     INK,
     LEVEL_COLOURS,
     LEVEL_MARKERS,
     SHADE,
+    TWO_COLUMNS,
     Captioned,
     captioned,
     quiet_style,
 )
-from analysis.pages.traces import GROUP_COLOURS, GROUP_LINES
 from analysis.pages.what_if import JudgedMission, sweep
 from analysis.sources.absent import Refusal, Row
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
@@ -133,7 +135,7 @@ def verdict_rows(table: pd.DataFrame) -> list[Row]:
 def posterior_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
     """How P(g*) is distributed in each knowledge group, with the thresholds."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.6))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.6))
         axes = figure.subplots()
         low, high = (float(table[name].iloc[0]) for name in ("lower_below", "raise_above"))
         axes.axvspan(low, high, color=SHADE, zorder=0)
@@ -150,19 +152,20 @@ def posterior_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
                     linestyle=GROUP_LINES[group],
                     label=f"{group} (n = {own['participant'].nunique()})",
                 )
-        axes.text(low, 1.02, "one level down", ha="right", fontsize=8, color=INK)
-        axes.text((low + high) / 2, 1.02, "keep", ha="center", fontsize=8, color=INK)
-        axes.text(high, 1.02, "one level up", ha="left", fontsize=8, color=INK)
+        axes.text(low, 1.04, "one level down", ha="right", fontsize=8, color=INK)
+        axes.text((low + high) / 2, 1.04, "keep", ha="center", fontsize=8, color=INK)
+        axes.text(high, 1.04, "one level up", ha="left", fontsize=8, color=INK)
         axes.set_xlim(0, 1)
-        axes.set_ylim(0, 1)
+        axes.set_ylim(0, 1.12)
+        axes.set_yticks(np.linspace(0, 1, 6))
         axes.set_xlabel("P(g*|path) at an evaluation")
         axes.set_ylabel("share of evaluations at or below")
         axes.legend(loc="upper left")
         return captioned(
             "coach_posterior",
             figure,
-            "What the coach concluded, by knowledge group: look how far apart the curves are "
-            "(the farther down, the surer), and how much of each falls left and right of the grey "
+            "What the coach concluded, by knowledge group: see how far apart the curves are "
+            "(the lower, the more certain), and how much of each falls left and right of the grey "
             "band, where the level changes.",
             simulated=simulated,
         )
@@ -171,7 +174,7 @@ def posterior_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
 def calibration_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
     """P(g*) against what came of it; `table` is that of `evaluations`."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.9))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.9))
         panels = np.ravel(figure.subplots(1, 2, sharex=True, sharey=True))
         for axes, (outcome, title) in zip(panels, FOLLOWED.items(), strict=True):
             rows = pd.DataFrame(calibration_rows(table, outcome))
@@ -211,7 +214,7 @@ def what_if_figure(missions: Sequence[JudgedMission], *, simulated: bool) -> Cap
     }
     swept = {name: what for name, what in SWEPT.items() if own[name] is not None}
     with quiet_style():
-        figure = Figure(figsize=(7.2, 5.6))
+        figure = Figure(figsize=(TWO_COLUMNS, 5.6))
         panels = figure.subplots(
             len(KNOWLEDGE), len(swept), sharex="col", sharey=True, squeeze=False
         )
@@ -240,7 +243,7 @@ def what_if_figure(missions: Sequence[JudgedMission], *, simulated: bool) -> Cap
             "coach_what_if",
             figure,
             "The same behaviour judged by other thresholds (tau) and another prior; dotted: as it "
-            "was. Look whether any setting gives the three groups different levels; people would "
+            "was. See whether any setting gives the three groups different levels; people would "
             "have acted differently under other words, so this is not a forecast.",
             simulated=simulated,
         )

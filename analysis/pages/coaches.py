@@ -14,7 +14,9 @@ from analysis.pages.style import (
     GREEN,
     INK,
     LEVEL_COLOURS,
+    ONE_COLUMN,
     ORANGE,
+    TWO_COLUMNS,
     VERMILION,
     Captioned,
     captioned,
@@ -142,7 +144,7 @@ def comparison_figure(comparison: Comparison) -> Captioned:
         if not coach.startswith(STATIC) and coach != TRUTH
     ]
     with quiet_style():
-        figure = Figure(figsize=(7.2, 0.9 + 1.5 * len(worlds)))
+        figure = Figure(figsize=(TWO_COLUMNS, 0.9 + 1.5 * len(worlds)))
         panels = np.ravel(figure.subplots(len(worlds), 1, sharex=True, squeeze=False))
         for axes, world in zip(panels, worlds, strict=True):
             axes.set_title(world)
@@ -274,7 +276,7 @@ def difference_rows(comparison: Comparison, of: Sequence[str]) -> list[Row]:
 def level_shares_figure(comparison: Comparison, world: str, of: Sequence[str]) -> Captioned:
     """Shares of the mission at each level by group, one panel a coach (as in Fig. 10)."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.0))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.0))
         panels = np.ravel(figure.subplots(1, len(of), sharey=True, squeeze=False))
         for axes, coach in zip(panels, of, strict=True):
             axes.set_title(coach)
@@ -292,7 +294,7 @@ def level_shares_figure(comparison: Comparison, world: str, of: Sequence[str]) -
             "coaches-levels",
             figure,
             f"Share of the missions at C1, C2 and C3 by group, world {world}: what Fig. 10 "
-            "shows for one person of each group. Look whether C3 grows and C1 shrinks from LOW to "
+            "shows for one person of each group. See whether C3 grows and C1 shrinks from LOW to "
             "HIGH.",
             simulated=True,
         )
@@ -308,7 +310,7 @@ def _level_share(comparison: Comparison, world: str, group: str, coach: str, lev
 def reliability_figure(comparison: Comparison) -> Captioned:
     """P(known) as the coaches held it, against the share of rooms truly known."""
     with quiet_style():
-        figure = Figure(figsize=(4.6, 4.4))
+        figure = Figure(figsize=(ONE_COLUMN, 3.3))
         axes = figure.subplots()
         axes.plot([0, 1], [0, 1], color=INK, linewidth=0.8, linestyle=":")
         for number, one in enumerate(comparison.calibrations):
@@ -336,7 +338,7 @@ def reliability_figure(comparison: Comparison) -> Captioned:
 def switches_figure(comparison: Comparison, world: str) -> Captioned:
     """Rescues against switches of every adaptive coach, by group."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.2))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.2))
         panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
         for axes, group in zip(panels, KNOWLEDGE, strict=True):
             axes.set_title(group)

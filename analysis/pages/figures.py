@@ -2,12 +2,11 @@
 
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy import stats
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from analysis.pages.style import (
     BLUE,
@@ -15,13 +14,15 @@ from analysis.pages.style import (
     LEVEL_COLOURS,
     LEVEL_MARKERS,
     SHADE,
+    TWO_COLUMNS,
     VERMILION,
     Captioned,
     bracket,
     captioned,
     quiet_style,
+    save_figures,
 )
-from analysis.sources.absent import Absent, Row
+from analysis.sources.absent import Absent, Row, attempt
 from analysis.sources.factors import (
     ADAPTIVITY,
     ALIGNED,
@@ -30,60 +31,73 @@ from analysis.sources.factors import (
     MENTAL_STATES,
     OUTCOMES,
 )
-from analysis.sources.frames import Floats, StudyData, both_rounds, paired
+from analysis.sources.frames import Floats, Paired, StudyData, paired
+from analysis.stats.adaptivity import overall
+from analysis.stats.apa import bounded, p_words
+from analysis.stats.cellmodel import CELLS, weights_of
+from analysis.stats.equivalence import BOUND_SDS
+from analysis.stats.level import ALPHA, percent
 from analysis.stats.posthoc import (
     RoundModels,
     complexity_within_knowledge_by_round,
     difference_knowledge_within_complexity,
 )
 
-SIGNIFICANT = 0.05
 OFFSETS = dict(zip(COMPLEXITY, (-0.24, 0.0, 0.24), strict=True))
 
 
-def fig7_mental_states(study: StudyData) -> Captioned:
-    """Mental states in the static round by knowledge group and static level (Fig. 7)."""
+def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
+    """Mental states in the static round by knowledge group and static level (Fig. 7).
+
+    Points, means and comparisons are of the same people, those of the ANOVA.
+    """
     with quiet_style():
-        figure = Figure(figsize=(7.2, 6.2))
-        panels = np.ravel(figure.subplots(2, 2, sharex=True, sharey=True))
-        rounds = _rounds_with_groups(study)
-        static = rounds[rounds["adaptivity"] == "static"]
+        figure = Figure(figsize=(TWO_COLUMNS, 6.2))
+        panels = np.ravel(figure.subplots(2, 2, sharey=True))
         for axes, state in zip(panels, MENTAL_STATES, strict=True):
+            pair = paired(study, state)
             axes.set_title(state)
-            axes.set_ylim(0, 125)
+            axes.set_ylim(-3, 140)
             for group, level in ALIGNED:
                 _shade(axes, KNOWLEDGE.index(group) + OFFSETS[level], 0.11)
             for level in COMPLEXITY:
                 for at, group in enumerate(KNOWLEDGE):
-                    values = _values(static, state, group, level)
                     _mean_and_se(
                         axes,
                         at + OFFSETS[level],
-                        values,
+                        pair.static[_inside(pair, group, level)],
                         LEVEL_COLOURS[level],
                         LEVEL_MARKERS[level],
-                        level if at == 0 else None,
+                        0.1,
                     )
-            _level_brackets(axes, complexity_within_knowledge_by_round(_models(study, state)))
-            axes.set_xticks(range(len(KNOWLEDGE)), KNOWLEDGE)
+            _level_brackets(axes, alpha, complexity_within_knowledge_by_round(RoundModels.of(pair)))
+            axes.set_xticks(range(len(KNOWLEDGE)), [_with_n(pair, group) for group in KNOWLEDGE])
+            axes.set_xlim(-0.5, len(KNOWLEDGE) - 0.5)
             axes.set_yticks(range(0, 101, 25))
         for axes in panels[::2]:
-            axes.set_ylabel("answer, 1 to 100")
+            axes.set_ylabel("answer, 1 to 100 (mean \u00b1 SE)")
         for axes in panels[2:]:
-            axes.set_xlabel("knowledge group")
+            axes.set_xlabel("knowledge group; n at C1, C2, C3")
         figure.legend(
-            *panels[0].get_legend_handles_labels(),
+            handles=[
+                Line2D([], [], color=LEVEL_COLOURS[level], marker=LEVEL_MARKERS[level],
+                       linestyle="none", label=level)
+                for level in COMPLEXITY
+            ],
             title="static level",
             loc="outside upper right",
             ncols=3,
             fontsize=8,
-        )
+        )  # fmt: skip
         return captioned(
             "fig7_mental_states",
             figure,
-            "Mental states after the static round: look whether each knowledge group answers best "
-            "at its own level (shaded); mean and standard error over every answer, brackets are "
-            "Holm-adjusted p below .05 within a group.",
+            "Mental states after the static round: see whether each knowledge group answers best "
+            "at its own level (shaded). Points are people with both rounds, the people of the "
+            "ANOVA; n is given for C1, C2 and C3. Large symbols are means, error bars one standard "
+            "error (none for one person); brackets are comparisons within a group with "
+            "Holm-adjusted p below "
+            f"{bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
 
@@ -91,130 +105,196 @@ def fig7_mental_states(study: StudyData) -> Captioned:
 def fig8_performance(study: StudyData) -> Captioned:
     """Victims rescued by knowledge group in each round (Fig. 8)."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.9))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.4))
         panels = np.ravel(figure.subplots(1, 2, sharey=True))
-        rounds = _rounds_with_groups(study)
-        for axes, name in zip(panels, reversed(ADAPTIVITY), strict=True):
+        pair = paired(study, "victims")
+        rounds = {"adaptive": pair.adaptive, "static": pair.static}
+        for axes, (name, values) in zip(panels, rounds.items(), strict=True):
             axes.set_title(name)
-            part = rounds[rounds["adaptivity"] == name]
+            ticks = []
             for at, group in enumerate(KNOWLEDGE):
-                values = part.loc[part["knowledge"] == group, "victims"].dropna().to_numpy(float)
-                _mean_and_se(axes, at, values, BLUE, "o", None)
-            axes.set_xticks(range(len(KNOWLEDGE)), KNOWLEDGE)
+                inside = pair.knowledge == at
+                _mean_and_se(axes, at, values[inside], BLUE, "o")
+                ticks.append(f"{group}\nn = {np.count_nonzero(inside)}")
+            axes.set_xticks(range(len(KNOWLEDGE)), ticks)
+            axes.set_xlim(-0.5, len(KNOWLEDGE) - 0.5)
             axes.set_xlabel("knowledge group")
-            axes.set_ylim(bottom=0)
-        panels[0].set_ylabel("victims rescued")
+        panels[0].set_ylabel("victims rescued (mean \u00b1 SE)")
+        panels[0].set_ylim(-0.5, max([1.0, *pair.static, *pair.adaptive]) * 1.05)
         return captioned(
             "fig8_performance",
             figure,
-            "Victims rescued with either instructor: look whether rescues rise with knowledge, and "
-            "whether the two panels differ; mean and standard error over every mission.",
+            "Victims rescued with either instructor: see whether rescues rise with knowledge, and "
+            "whether the two panels differ. Points are people with both rounds, the people of the "
+            "ANOVA; large symbols are means, error bars one standard error.",
             simulated=study.simulated,
         )
 
 
-def fig9_adaptivity(study: StudyData, outcome: str = "engagement") -> Captioned:
+def fig9_adaptivity(
+    study: StudyData, outcome: str = "engagement", alpha: float = ALPHA
+) -> Captioned:
     """adaptive - static of one outcome by static level and knowledge group (Fig. 9)."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.9))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.6))
         panels = np.ravel(figure.subplots(1, 3, sharey=True))
         pair = paired(study, outcome)
-        comparisons = difference_knowledge_within_complexity(_models(study, outcome))
-        for at_level, (axes, level) in enumerate(zip(panels, COMPLEXITY, strict=True)):
+        comparisons = difference_knowledge_within_complexity(RoundModels.of(pair))
+        for axes, level in zip(panels, COMPLEXITY, strict=True):
             axes.set_title(f"static {level}")
             axes.axhline(0, color=INK, linewidth=0.8)
             aligned = next(group for group, own in ALIGNED if own == level)
             _shade(axes, KNOWLEDGE.index(aligned), 0.35)
-            for at, _ in enumerate(KNOWLEDGE):
-                inside = (pair.knowledge == at) & (pair.complexity == at_level)
-                values = pair.difference[inside]
+            ticks = []
+            for at, group in enumerate(KNOWLEDGE):
+                values = pair.difference[_inside(pair, group, level)]
                 above = len(values) > 0 and values.mean() >= 0
-                _mean_and_se(
-                    axes, at, values, BLUE if above else VERMILION, "^" if above else "v", None
-                )
-            axes.set_xticks(range(len(KNOWLEDGE)), KNOWLEDGE)
+                _mean_and_se(axes, at, values, BLUE if above else VERMILION, "^" if above else "v")
+                ticks.append(f"{group}\nn = {len(values)}")
+            axes.set_xticks(range(len(KNOWLEDGE)), ticks)
             axes.set_xlim(-0.6, len(KNOWLEDGE) - 0.4)
-        _group_brackets(panels, comparisons)
-        panels[0].set_ylabel(f"{outcome}: adaptive - static")
+        reach = max([1.0, *np.abs(pair.difference)])
+        panels[0].set_ylim(-1.05 * reach, 1.05 * reach)
+        _group_brackets(panels, alpha, comparisons)
+        panels[0].set_ylabel(f"{outcome}: adaptive - static (mean \u00b1 SE)")
         panels[1].set_xlabel("knowledge group")
         return captioned(
             f"fig9_{outcome}",
             figure,
-            f"Gain in {outcome} with the adaptive instructor: look whether people whose static "
+            f"Gain in {outcome} with the adaptive instructor: see whether people whose static "
             "level did not fit their knowledge gain (up, blue) and the aligned (shaded) lose "
-            "(down, red); mean and standard error, brackets are Holm-adjusted p below .05 within "
-            "a level.",
+            "(down, red). Points are people, large symbols means, error bars one standard error; "
+            "brackets are comparisons within a level with Holm-adjusted p below "
+            f"{bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
 
 
-def adaptivity_estimates(study: StudyData) -> Captioned:
-    """adaptive - static of every outcome in standard deviations of its static round."""
+def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
+    """adaptive - static of every outcome in standard deviations of its static round.
+
+    The nine cells count equally, as in the ANOVA's test; without knowledge groups or with an empty
+    cell people count equally, and the label says so.
+    """
+    outer, inner = 1 - alpha, 1 - 2 * alpha
+    thin, thick = percent(outer), percent(inner)
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.4))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.2))
         axes = figure.subplots()
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")
-        axes.axvspan(-0.5, 0.5, color=SHADE, zorder=0)
+        axes.axvspan(-BOUND_SDS, BOUND_SDS, color=SHADE, zorder=0)
         axes.axvline(0, color=INK, linewidth=0.8)
+        labels = []
+        reach = BOUND_SDS
         for at, outcome in enumerate(OUTCOMES):
-            people = both_rounds(study, outcome)
-            gaps = (people["adaptive"] - people["static"]).to_numpy(float)
-            unit = float(people["static"].std())
-            if len(gaps) < 2 or unit == 0:
-                axes.text(0, at, "no estimate: too few people or no spread", va="center")
+            estimate = attempt(overall, study, outcome)
+            if isinstance(estimate, Absent):
+                labels.append(outcome)
+                axes.text(0, at, f"no estimate: {estimate.reason}", va="center", ha="center",
+                          fontsize=7)  # fmt: skip
                 continue
-            se = gaps.std(ddof=1) / np.sqrt(len(gaps)) / unit
-            centre = gaps.mean() / unit
-            for level, width in ((0.95, 1.2), (0.90, 3.2)):
-                reach = float(stats.t.ppf((1 + level) / 2, len(gaps) - 1)) * se
-                axes.plot([centre - reach, centre + reach], [at, at], color=BLUE, linewidth=width)
-            axes.plot([centre], [at], "o", color=BLUE, markeredgecolor="white")
-        axes.set_yticks(range(len(OUTCOMES)), OUTCOMES)
+            weights = "" if estimate.equal_cells else ", people equal"
+            labels.append(f"{outcome} (n = {estimate.n}{weights})")
+            for level, width in ((outer, 1.2), (inner, 3.2)):
+                ends = estimate.interval(level)
+                axes.plot(ends, [at, at], color=BLUE, linewidth=width, solid_capstyle="butt")
+                reach = max(reach, *np.abs(ends))
+            axes.plot([estimate.estimate], [at], "o", color=BLUE, markeredgecolor="white")
+        axes.set_yticks(range(len(OUTCOMES)), labels)
         axes.set_ylim(len(OUTCOMES) - 0.5, -0.5)
-        axes.set_xlabel("adaptive - static, in standard deviations of the static round")
+        axes.set_xlim(-1.08 * reach, 1.08 * reach)
+        axes.set_xlabel(
+            f"adaptive - static, in SD of the static round ({thick} CI thick, {thin} CI thin)"
+        )
         return captioned(
             "adaptivity_estimates",
             figure,
-            "Overall effect of adaptivity: an interval inside the grey band is equivalent to none "
-            "at half a standard deviation, one that misses zero is a difference; thick 90%, thin "
-            "95%.",
+            f"Overall effect of adaptivity with {thick} (thick) and {thin} (thin) confidence "
+            "intervals: a thick interval inside the grey band is equivalent to none at half a "
+            "standard deviation, a thin one that misses zero is a difference. The nine cells of "
+            "knowledge and level count equally, as in the ANOVA's test of adaptivity.",
             simulated=study.simulated,
         )
 
 
-def write_figures(study: StudyData, folder: Path) -> list[Path]:
-    """Draw every figure that the study can fill into `folder` (PNG), and their captions.
+def cells_figure(study: StudyData, outcome: str, alpha: float = ALPHA) -> Captioned:
+    """Everybody's answer in the nine cells, in each round, with estimated means."""
+    with quiet_style():
+        figure = Figure(figsize=(TWO_COLUMNS, 4.4))
+        panels = figure.subplots(2, 3, sharey=True)
+        shown: list[float] = []
+        pair = paired(study, outcome)
+        rounds = dict(zip(ADAPTIVITY, (pair.static, pair.adaptive), strict=True))
+        for row, (name, model) in zip(panels, RoundModels.of(pair).by_round(), strict=True):
+            for axes, group in zip(row, KNOWLEDGE, strict=True):
+                axes.set_title(f"{group}, {name}")
+                ticks = []
+                for at, level in enumerate(COMPLEXITY):
+                    values = rounds[name][_inside(pair, group, level)]
+                    half = model.contrast(weights_of([(group, level)])).half_width(1 - alpha)
+                    bar = None if isinstance(half, Absent) else half
+                    _mean_and_bar(
+                        axes, at, values, LEVEL_COLOURS[level], LEVEL_MARKERS[level], bar, 0.3
+                    )
+                    shown += values.tolist()
+                    if len(values) > 1 and bar is not None:
+                        shown += [float(values.mean()) - bar, float(values.mean()) + bar]
+                    ticks.append(f"{level}\nn = {len(values)}")
+                axes.set_xticks(range(len(COMPLEXITY)), ticks)
+                axes.set_xlim(-0.5, len(COMPLEXITY) - 0.5)
+        low, high = min(shown, default=0.0), max(shown, default=1.0)
+        margin = max(0.06 * (high - low), 0.5)
+        panels[0, 0].set_ylim(low - margin, high + margin)
+        for axes in panels[:, 0]:
+            axes.set_ylabel(f"{outcome} (mean, {percent(1 - alpha)} CI)")
+        for axes in panels[1]:
+            axes.set_xlabel("static level")
+        return captioned(
+            f"cells_{outcome}",
+            figure,
+            f"Every answer for {outcome} by knowledge group, static level and round: see how far "
+            "the people of a cell spread about its mean. Points are people with both rounds, large "
+            f"symbols cell means, error bars {percent(1 - alpha)} confidence intervals from the "
+            "round's pooled error.",
+            simulated=study.simulated,
+        )
 
-    Without knowledge groups only the overall estimates are drawn.
+
+def figures_of(study: StudyData, alpha: float = ALPHA) -> list[Captioned]:
+    """Every figure that the study can fill, in the paper's order.
+
+    Without knowledge groups these are the overall estimates alone.
     """
-    drawn = [adaptivity_estimates(study)]
-    if study.has("knowledge"):
-        drawn += [fig7_mental_states(study), fig8_performance(study), fig9_adaptivity(study)]
+    if not study.has("knowledge"):
+        return [adaptivity_estimates(study, alpha)]
+    return [
+        fig7_mental_states(study, alpha),
+        fig8_performance(study),
+        fig9_adaptivity(study, alpha=alpha),
+        adaptivity_estimates(study, alpha),
+        *(cells_figure(study, outcome, alpha) for outcome in OUTCOMES),
+    ]
+
+
+def write_figures(
+    study: StudyData, folder: Path, alpha: float = ALPHA, origin: str = ""
+) -> list[Path]:
+    """Draw every figure that the study can fill into `folder`, and their captions.
+
+    Raises OSError where the folder cannot be written.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for captioned_figure in drawn:
-        path = folder / f"{captioned_figure.name}.png"
-        with mpl.rc_context({"savefig.dpi": 200}):
-            captioned_figure.figure.savefig(path, metadata={"Software": None})
-        paths.append(path)
-    captions = "".join(f"{item.name}.png\n{item.caption}\n\n" for item in drawn)
-    (folder / "captions.txt").write_text(captions, encoding="utf-8")
-    return paths
+    return save_figures(figures_of(study, alpha), folder, origin)
 
 
-def _models(study: StudyData, outcome: str) -> RoundModels:
-    return RoundModels.of(paired(study, outcome))
+def _inside(pair: Paired, group: str, level: str) -> NDArray[np.bool_]:
+    return np.equal(pair.cell, CELLS.index((group, level)))
 
 
-def _rounds_with_groups(study: StudyData) -> pd.DataFrame:
-    study.need_groups()
-    return study.rounds.join(study.participants[["knowledge", "complexity"]], on="participant")
-
-
-def _values(rounds: pd.DataFrame, column: str, group: str, level: str) -> Floats:
-    inside = (rounds["knowledge"] == group) & (rounds["complexity"] == level)
-    return rounds.loc[inside, column].dropna().to_numpy(dtype=float)
+def _with_n(pair: Paired, group: str) -> str:
+    counts = [np.count_nonzero(_inside(pair, group, level)) for level in COMPLEXITY]
+    return f"{group}\nn = {', '.join(map(str, counts))}"
 
 
 def _shade(axes: Axes, at: float, reach: float) -> None:
@@ -222,15 +302,28 @@ def _shade(axes: Axes, at: float, reach: float) -> None:
 
 
 def _mean_and_se(
-    axes: Axes, at: float, values: Floats, colour: str, marker: str, label: str | None
+    axes: Axes, at: float, values: Floats, colour: str, marker: str, reach: float = 0.25
 ) -> None:
-    """Every value faintly, spread by its rank, and the mean with its standard error."""
+    se = float(values.std(ddof=1)) / len(values) ** 0.5 if len(values) > 1 else None
+    _mean_and_bar(axes, at, values, colour, marker, se, reach)
+
+
+def _mean_and_bar(
+    axes: Axes,
+    at: float,
+    values: Floats,
+    colour: str,
+    marker: str,
+    bar: float | None,
+    reach: float,
+) -> None:
+    """Every value faintly, near ones side by side, and their mean with a bar of this half length;
+    one value alone has no bar."""
     if len(values) == 0:
         return
-    spread = np.linspace(-0.07, 0.07, len(values)) if len(values) > 1 else np.zeros(1)
     axes.plot(
-        at + spread,
-        np.sort(values),
+        at + side_by_side(values, reach),
+        values,
         linestyle="none",
         marker=".",
         markersize=4,
@@ -238,54 +331,69 @@ def _mean_and_se(
         alpha=0.45,
         markeredgewidth=0,
     )
-    error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
     axes.errorbar(
         at,
         values.mean(),
-        yerr=error,
+        yerr=bar if len(values) > 1 else None,
         fmt=marker,
         color=colour,
         ecolor=INK,
         elinewidth=1.0,
         capsize=2.5,
-        markersize=6,
+        markersize=5,
         markeredgecolor="white",
         markeredgewidth=0.6,
-        label=label,
         zorder=3,
     )
 
 
-def _significant(row: Row) -> str | None:
+def side_by_side(values: Floats, reach: float) -> Floats:
+    """Where each value lies beside its place, -reach to reach: neighbours spread evenly about 0.
+
+    Values within a twentieth of the range share a row, so the shape tells how many they are, and
+    nothing leans to a side.
+    """
+    width = max(float(np.ptp(values)) / 20, 1e-9)
+    rows = np.round((values - values.min()) / width).astype(int)
+    counts = np.bincount(rows)
+    step = 2 * reach / max(6, int(counts.max()))
+    offsets = np.zeros(len(values))
+    for row in np.unique(rows):
+        members = np.flatnonzero(rows == row)
+        offsets[members] = (np.arange(len(members)) - (len(members) - 1) / 2) * step
+    return offsets
+
+
+def _significant(row: Row, alpha: float) -> str | None:
     p = row["p_holm"]
-    if isinstance(p, Absent) or not isinstance(p, float) or p >= SIGNIFICANT:
+    if isinstance(p, Absent) or not isinstance(p, float) or p >= alpha:
         return None
-    return "p < .001" if p < 0.001 else f"p = {p:.3f}".replace("0.", ".")
+    return p_words(p)
 
 
-def _level_brackets(axes: Axes, comparisons: list[Row]) -> None:
+def _level_brackets(axes: Axes, alpha: float, comparisons: list[Row]) -> None:
     heights = dict.fromkeys(KNOWLEDGE, 101.0)
     for row in comparisons:
-        text = _significant(row)
+        text = _significant(row, alpha)
         group = str(row["knowledge"])
         if row["adaptivity"] == "static" and text:
             one, other = str(row["contrast"]).split(" - ")
             at = KNOWLEDGE.index(group)
             bracket(axes, at + OFFSETS[one], at + OFFSETS[other], heights[group], text)
-            heights[group] += 9.0
+            heights[group] += 12.0
 
 
 def _group_brackets(
-    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", rows: list[Row]
+    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", alpha: float, rows: list[Row]
 ) -> None:
     low, high = panels[0].get_ylim()
-    step = 0.07 * (high - low)
+    step = 0.09 * (high - low)
     heights = dict.fromkeys(COMPLEXITY, high)
     for row in rows:
-        text = _significant(row)
+        text = _significant(row, alpha)
         level = str(row["complexity"])
         if text:
             one, other = (KNOWLEDGE.index(name) for name in str(row["contrast"]).split(" - "))
             bracket(panels[COMPLEXITY.index(level)], one, other, heights[level], text)
             heights[level] += step
-    panels[0].set_ylim(low, max([high, *heights.values()]) + step / 2)
+    panels[0].set_ylim(low, max([high, *heights.values()]) + step)

@@ -3,7 +3,15 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from analysis.pages.style import BLUE, INK, SHADE, Captioned, captioned, quiet_style
+from analysis.pages.style import (
+    BLUE,
+    INK,
+    SHADE,
+    TWO_COLUMNS,
+    Captioned,
+    captioned,
+    quiet_style,
+)
 from analysis.sources.absent import Row
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
@@ -51,7 +59,7 @@ def _left(before: int, after: int, when: str) -> str:
 def flow_figure(rows: list[Row], *, simulated: bool) -> Captioned:
     """The flow of participants; `rows` are those of `flow_rows`."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 2.6))
+        figure = Figure(figsize=(TWO_COLUMNS, 2.6))
         axes = figure.subplots()
         axes.grid(visible=False)
         widths = [int(str(row["people"])) for row in rows]
@@ -67,7 +75,7 @@ def flow_figure(rows: list[Row], *, simulated: bool) -> Captioned:
         return captioned(
             "flow",
             figure,
-            "The flow of participants: look where people are lost. Everybody randomised is in the "
+            "The flow of participants: see where people are lost. Everybody randomised is in the "
             "sensitivity checks, and in the mixed models with what they answered.",
             simulated=simulated,
         )

@@ -4,8 +4,14 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from analysis.pages.style import INK, Captioned, captioned, quiet_style
-from analysis.pages.traces import GROUP_COLOURS
+from analysis.pages.style import (
+    GROUP_COLOURS,
+    INK,
+    TWO_COLUMNS,
+    Captioned,
+    captioned,
+    quiet_style,
+)
 from analysis.sources.absent import Absent
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
@@ -21,7 +27,7 @@ def knowledge_figure(study: StudyData, clustering: Clustering | Absent) -> Capti
     people = study.participants.dropna(subset=["quiz_static"])
     with quiet_style():
         times = sorted(people["memorise_minutes"].dropna().unique())
-        figure = Figure(figsize=(7.2, 1.4 + 1.5 * max(1, len(times))))
+        figure = Figure(figsize=(TWO_COLUMNS, 1.4 + 1.5 * max(1, len(times))))
         panels = np.ravel(figure.subplots(max(1, len(times)), 1, sharex=True, sharey=True))
         edges = np.arange(-0.025, 1.05, 0.05)
         for axes, minutes in zip(panels, times, strict=False):
@@ -45,7 +51,7 @@ def knowledge_figure(study: StudyData, clustering: Clustering | Absent) -> Capti
         return captioned(
             "knowledge",
             figure,
-            "Quiz scores and the knowledge groups that they form (dotted: the cuts): look whether "
+            "Quiz scores and the knowledge groups that they form (dotted: the cuts): see whether "
             "a longer time moves people to the right, and whether all groups are there.",
             simulated=study.simulated,
         )

@@ -24,7 +24,6 @@ from game.tables.exclusions import ExclusionRules, read_rules
 
 #: Names another source for all notebooks, in place of the one in their parameter cell.
 VARIABLE = "ANA_SOURCE"
-PUBLISHED = Path(__file__).resolve().parents[2] / "data" / "paper"
 DPI = 130
 
 
@@ -93,13 +92,17 @@ def open_source(source: str) -> Opened:
 
 
 def show(figure: Captioned | Absent) -> Shown:
-    """A figure, whose caption, drawn below it, says what to see; or why it cannot be had."""
+    """A figure with its caption below, which says what to see; or why it cannot be had."""
     if isinstance(figure, Absent):
         return Shown(f"<p>No figure: {escape(figure.reason)}.</p>", figure.reason)
     image = io.BytesIO()
     figure.figure.savefig(image, format="png", dpi=DPI)
     data = base64.b64encode(image.getvalue()).decode()
-    html = f'<img alt="{escape(figure.caption)}" src="data:image/png;base64,{data}">'
+    caption = escape(figure.caption)
+    html = (
+        f'<figure><img alt="{caption}" src="data:image/png;base64,{data}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
     return Shown(html, figure.caption)
 
 

@@ -5,7 +5,15 @@ from collections.abc import Sequence
 import pandas as pd
 from matplotlib.figure import Figure
 
-from analysis.pages.style import BLUE, INK, ORANGE, Captioned, captioned, quiet_style
+from analysis.pages.style import (
+    BLUE,
+    INK,
+    ORANGE,
+    TWO_COLUMNS,
+    Captioned,
+    captioned,
+    quiet_style,
+)
 from analysis.stats.anova import THREE_WAY
 from analysis.stats.power import SAMPLE_SIZES, PowerPoint, sample_size, simulated_power
 
@@ -29,7 +37,7 @@ def power_points(
 def power_figure(curves: dict[float, list[PowerPoint]]) -> Captioned:
     """Power by number of people; `curves` are those of `power_points`."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.9))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.9))
         axes = figure.subplots()
         axes.axhline(0.8, color=INK, linewidth=0.8, linestyle=":")
         axes.axvline(PUBLISHED_N, color=INK, linewidth=0.8, linestyle=":")

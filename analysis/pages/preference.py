@@ -4,7 +4,16 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from analysis.pages.style import BLUE, INK, ORANGE, SHADE, Captioned, captioned, quiet_style
+from analysis.pages.style import (
+    BLUE,
+    INK,
+    ORANGE,
+    SHADE,
+    TWO_COLUMNS,
+    Captioned,
+    captioned,
+    quiet_style,
+)
 from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
 from analysis.sources.frames import StudyData
@@ -18,7 +27,7 @@ STATEMENTS = dict(
 def statements_figure(study: StudyData) -> Captioned:
     """How each statement was answered after either instructor."""
     with quiet_style():
-        figure = Figure(figsize=(7.2, 3.4))
+        figure = Figure(figsize=(TWO_COLUMNS, 3.4))
         panels = np.ravel(figure.subplots(1, len(LIKERT_ITEMS), sharey=True))
         for axes, item in zip(panels, LIKERT_ITEMS, strict=True):
             axes.set_title(STATEMENTS[item])
@@ -35,7 +44,7 @@ def statements_figure(study: StudyData) -> Captioned:
             "preference_statements",
             figure,
             "The four statements after the static (orange) and the adaptive (blue) instructor: "
-            "look whether one colour stands farther to the right.",
+            "see whether one colour stands farther to the right.",
             simulated=study.simulated,
         )
 
@@ -44,7 +53,7 @@ def preferred_figure(rows: Row | Absent, *, simulated: bool) -> Captioned:
     """The share who preferred the adaptive instructor; `rows` are those of `preferred_rows`."""
     table = preferred_table(rows)
     with quiet_style():
-        figure = Figure(figsize=(7.2, 1.4 + 0.3 * max(1, len(table))))
+        figure = Figure(figsize=(TWO_COLUMNS, 1.4 + 0.3 * max(1, len(table))))
         axes = figure.subplots()
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")

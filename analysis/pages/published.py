@@ -11,13 +11,16 @@ from scipy import stats
 
 from analysis.sources.absent import SourceError
 
+_PACKED = Path(__file__).resolve().parents[1] / "paper"
+#: In an installed package the tables lie inside it, in the repository under data/paper.
+PUBLISHED = _PACKED if _PACKED.is_dir() else Path(__file__).resolve().parents[2] / "data" / "paper"
 ANOVA_FILE = "anova.csv"
 POSTHOC_FILE = "posthoc.csv"
 STUDY_FILE = "study.csv"
 
 
 #: Printed numbers stay text, because their last digit says how they were rounded.
-AS_PRINTED = {"F": str, "lambda_read": str, "p_printed": str, "eta_printed": str}
+AS_PRINTED = {"value": str, "F": str, "lambda_read": str, "p_printed": str, "eta_printed": str}
 
 
 def printed(folder: Path, name: str) -> pd.DataFrame:

@@ -7,11 +7,10 @@ from matplotlib.patches import Patch
 
 from analysis.pages.mission_rows import SHARES, missions, with_groups
 from analysis.pages.style import (
-    BLUE,
-    GREEN,
+    GROUP_COLOURS,
     INK,
     LEVEL_COLOURS,
-    VERMILION,
+    TWO_COLUMNS,
     Captioned,
     captioned,
     quiet_style,
@@ -20,9 +19,6 @@ from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 
-#: The paper's colours of the three people of Fig. 10.
-GROUP_COLOURS = {"LOW": BLUE, "MED": VERMILION, "HIGH": GREEN}
-GROUP_LINES = {"LOW": "-", "MED": "--", "HIGH": "-."}
 SECONDS = 1000.0
 
 
@@ -54,7 +50,7 @@ def fig10_traces(recorded: Recorded, study: StudyData) -> Captioned:
     levels = adaptive_levels(recorded, study)
     chosen = illustrative(recorded, study)
     with quiet_style():
-        figure = Figure(figsize=(7.2, 4.6))
+        figure = Figure(figsize=(TWO_COLUMNS, 4.6))
         panels = np.ravel(figure.subplots(len(KNOWLEDGE), 1, sharex=True, sharey=True))
         for axes, group in zip(panels, KNOWLEDGE, strict=True):
             axes.set_title(group)
@@ -75,7 +71,7 @@ def fig10_traces(recorded: Recorded, study: StudyData) -> Captioned:
             "fig10_traces",
             figure,
             "Level of the adaptive instructor for the person of each group whose shares of time "
-            "are nearest the group's mean: look how long each line stays low (C1) or high (C3).",
+            "are nearest the group's mean: see how long each line stays low (C1) or high (C3).",
             simulated=study.simulated,
         )
 
@@ -90,7 +86,7 @@ def all_traces(recorded: Recorded, study: StudyData) -> Captioned:
     sizes = [max(1, levels.loc[levels["knowledge"] == group, "participant"].nunique())
              for group in KNOWLEDGE]  # fmt: skip
     with quiet_style():
-        figure = Figure(figsize=(7.2, 6.4))
+        figure = Figure(figsize=(TWO_COLUMNS, 6.4))
         panels = np.ravel(figure.subplots(len(KNOWLEDGE), 1, sharex=True, height_ratios=sizes))
         for axes, group in zip(panels, KNOWLEDGE, strict=True):
             own = levels[levels["knowledge"] == group]
@@ -119,7 +115,7 @@ def all_traces(recorded: Recorded, study: StudyData) -> Captioned:
             "all_traces",
             figure,
             "Every adaptive mission, a row a person, in each group from the lowest mean level at "
-            "the bottom to the highest: look whether the colour of a group changes with knowledge, "
+            "the bottom to the highest: see whether the colour of a group changes with knowledge, "
             "and how often a row changes.",
             simulated=study.simulated,
         )

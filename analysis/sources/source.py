@@ -1,5 +1,6 @@
 """Finds out what kind of source was given, and reads it."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
@@ -16,25 +17,34 @@ from analysis.sources.tables_folder import is_tables_folder, read_tables
 from game.journal.records import StudyMode
 
 
-def load_study(
+@dataclass(frozen=True)
+class Loaded:
+    """A study as the statistics take it, and all that its journals tell where there are any."""
+
+    study: StudyData
+    recorded: Recorded | None
+
+
+def load(
     source: Path,
     quiz: Path | None = None,
     mode: StudyMode | None = None,
     *,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
-) -> StudyData:
-    """Read one long CSV, with quiz scores if given, a study folder, or a folder of tables.
+) -> Loaded:
+    """Read one table, with quiz scores if given, a study folder, or a folder of tables.
 
     Raises SourceError or JournalError naming the place and a hint.
     """
     if source.is_dir():
         if quiz is not None:
             raise SourceError("--quiz goes with a CSV source; sessions have their own scores")
-        return load_recorded(source, mode, check=check, tick=tick).study()
+        recorded = load_recorded(source, mode, check=check, tick=tick)
+        return Loaded(recorded.study(), recorded)
     if mode is not None:
         raise SourceError("--mode goes with a study folder; a CSV has a column 'simulated'")
-    return read_long_csv(source, quiz)
+    return Loaded(read_long_csv(source, quiz), None)
 
 
 def holds_live_sessions(source: Path, mode: StudyMode | None = None) -> bool:

@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.sources.absent import Absent, Refusal, Row
+from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.frames import Floats, Paired
 from analysis.stats.cellmodel import CellModel, FTest, fit_cells
+from analysis.stats.effect_sizes import eta_interval
+from analysis.stats.level import ALPHA
 
 _MEAN = np.full((1, 3), 1 / 3)
 _GAPS = np.array([[1.0, -1.0, 0.0], [1.0, 0.0, -1.0]])
@@ -49,9 +51,15 @@ class Effect:
         """Wilks' lambda of an effect that contains adaptivity, else None."""
         return 1 - self.test.pes if self.effect in WITHIN else None
 
-    def row(self) -> Row:
+    def pes_interval(self, alpha: float = ALPHA) -> tuple[float, float] | Absent:
+        """The 1 - 2 alpha interval of partial eta squared, by the noncentral F."""
+        return attempt(eta_interval, self.test.F, self.test.df1, self.test.df2, 1 - 2 * alpha)
+
+    def row(self, alpha: float = ALPHA) -> Row:
         """The line as written to the results."""
         test = self.test
+        ends = self.pes_interval(alpha)
+        lower, upper = (ends, ends) if isinstance(ends, Absent) else ends
         return {
             "effect": self.effect,
             "df1": test.df1,
@@ -62,6 +70,8 @@ class Effect:
             "F": test.F,
             "p": test.p,
             "pes": test.pes,
+            "pes.lower": lower,
+            "pes.upper": upper,
             "ges": self.ges,
             "ges_obs_knowledge": self.ges_obs_knowledge,
             "wilks": Absent("Wilks' lambda belongs to within-person effects alone")

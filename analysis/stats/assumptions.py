@@ -1,6 +1,6 @@
 """What the ANOVA assumes: equal spread, normal residuals; and a test that needs neither."""
 
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from scipy import stats
@@ -8,7 +8,7 @@ from scipy import stats
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.frames import Floats, Paired
 from analysis.stats.anova import HYPOTHESES, WITHIN
-from analysis.stats.cellmodel import CELLS, FLAT
+from analysis.stats.cellmodel import CELLS, FLAT, CellModel
 from analysis.stats.posthoc import RoundModels
 
 #: The fewest residuals that Shapiro and Wilk's W is defined for.
@@ -53,7 +53,9 @@ def _shapiro(residuals: Floats) -> Row | Absent:
 
 
 def hc3_rows(pair: Paired) -> list[Row]:
-    """Within effects with the HC3 covariance, which assumes no equal spread (MacKinnon & White).
+    """Within effects with the HC3 covariance, which assumes no equal spread (MacKinnon & White,
+    1985). In the saturated model a person's leverage is 1/n of their cell, so that the variance of
+    a cell's mean is the sum of (e/(1 - 1/n))^2 over n^2.
 
     Raises Refusal for a cell with fewer than two people.
     """
@@ -61,19 +63,19 @@ def hc3_rows(pair: Paired) -> list[Row]:
     model.require_every_cell()
     if bool((model.counts < 2).any()):
         raise Refusal("HC3 needs at least two people in every analysis cell")
-    import statsmodels.api as sm
-
-    fit = sm.OLS(pair.difference, np.eye(len(CELLS))[pair.cell]).fit(cov_type="HC3", use_t=True)
+    weighted = model.residuals / (1 - 1 / model.counts[model.cell])
+    variances = np.bincount(model.cell, weighted**2, len(CELLS)) / model.counts**2
     return [
-        {"effect": effect, **_hc3_test(fit, hypothesis)}
+        {"effect": effect, **_hc3_test(model, variances, hypothesis)}
         for effect, hypothesis in zip(WITHIN, HYPOTHESES.values(), strict=True)
     ]
 
 
-def _hc3_test(fit: Any, hypothesis: Floats) -> Row:
-    spread = hypothesis @ fit.cov_params() @ hypothesis.T
+def _hc3_test(model: CellModel, variances: Floats, hypothesis: Floats) -> Row:
+    spread = (hypothesis * variances) @ hypothesis.T
     if np.linalg.matrix_rank(spread) < len(hypothesis):
         flat = Absent("too many analysis cells without variation")
         return {"F": flat, "p": flat}
-    test = fit.f_test(hypothesis)
-    return {"F": float(test.fvalue), "p": float(test.pvalue)}
+    gap = hypothesis @ model.means
+    f = float(gap @ np.linalg.solve(spread, gap)) / len(hypothesis)
+    return {"F": f, "p": float(stats.f.sf(f, len(hypothesis), model.df))}

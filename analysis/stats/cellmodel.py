@@ -11,9 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from analysis.sources.absent import Absent, Refusal, Row
+from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, Ints
+from analysis.stats.effect_sizes import t_noncentrality
+from analysis.stats.level import ALPHA
 
 CELLS = tuple((knowledge, level) for knowledge in KNOWLEDGE for level in COMPLEXITY)
 #: A spread within cells below this share of the largest value is rounding, not variation.
@@ -46,7 +48,9 @@ class FTest:
 class Contrast:
     """One weighted sum of cell means with its standard error, t and two-sided p.
 
-    A part that the data cannot give is an `Absent` with the reason.
+    A part that the data cannot give is an `Absent` with the reason. `leverage` is sum(w^2/n), which
+    makes the standardised contrast d = t sqrt(leverage), the estimate over the pooled standard
+    deviation; None where there is no such thing.
     """
 
     estimate: float | Absent
@@ -54,15 +58,32 @@ class Contrast:
     df: int
     t: float | Absent
     p: float | Absent
+    leverage: float | None = None
+
+    def standardised(self, level: float) -> Row:
+        """d and its interval of this level, by the noncentral t; nothing without a leverage."""
+        if self.leverage is None:
+            return {}
+        if isinstance(self.t, Absent):
+            return dict.fromkeys(("d", "d.lower", "d.upper"), self.t)
+        scale = self.leverage**0.5
+        ends = attempt(t_noncentrality, self.t, self.df, level)
+        low, high = (ends, ends) if isinstance(ends, Absent) else (x * scale for x in ends)
+        return {"d": self.t * scale, "d.lower": low, "d.upper": high}
 
     def interval(self, level: float) -> tuple[float | Absent, float | Absent]:
         """The two-sided confidence interval of this level (0 to 1)."""
-        if isinstance(self.estimate, Absent):
-            return self.estimate, self.estimate
-        if isinstance(self.se, Absent):
-            return self.se, self.se
-        reach = float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
+        reach = self.half_width(level)
+        if isinstance(self.estimate, Absent) or isinstance(reach, Absent):
+            gone = self.estimate if isinstance(self.estimate, Absent) else reach
+            return gone, gone
         return self.estimate - reach, self.estimate + reach
+
+    def half_width(self, level: float) -> float | Absent:
+        """Half the length of that interval."""
+        if isinstance(self.se, Absent):
+            return self.se
+        return float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
 
 
 @dataclass(frozen=True)
@@ -136,15 +157,17 @@ class CellModel:
         vacant = [name for name in self.empty if used[_position(name)]]
         if vacant:
             gone = Absent(f"nobody in {', '.join(vacant)}")
-            return Contrast(gone, gone, self.df, gone, gone)
+            return Contrast(gone, gone, self.df, gone, gone, 0.0)
         estimate = float(weights[used] @ self.means[used])
+        spread = float((weights[used] ** 2 / self.counts[used]).sum())
         reason = self.why_no_error()
         if reason is not None:
-            return Contrast(estimate, Absent(reason), self.df, Absent(reason), Absent(reason))
-        spread = float((weights[used] ** 2 / self.counts[used]).sum())
+            none = Absent(reason)
+            return Contrast(estimate, none, self.df, none, none, spread)
         se = float(np.sqrt(self.sse / self.df * spread))
         t = estimate / se
-        return Contrast(estimate, se, self.df, t, float(2 * stats.t.sf(abs(t), self.df)))
+        p = float(2 * stats.t.sf(abs(t), self.df))
+        return Contrast(estimate, se, self.df, t, p, spread)
 
 
 def _position(name: str) -> int:
@@ -172,11 +195,15 @@ def weights_of(cells: Iterable[tuple[str, str]]) -> Floats:
     return weights
 
 
-def contrast_row(contrast: Contrast) -> Row:
-    """estimate, SE, df and t.ratio under their written names."""
+def contrast_row(contrast: Contrast, alpha: float = ALPHA) -> Row:
+    """estimate, SE, df, t.ratio, the unadjusted interval and d under their written names."""
+    lower, upper = contrast.interval(1 - alpha)
     return {
         "estimate": contrast.estimate,
         "SE": contrast.se,
         "df": contrast.df,
+        "lower.CL": lower,
+        "upper.CL": upper,
         "t.ratio": contrast.t,
+        **contrast.standardised(1 - alpha),
     }

@@ -23,7 +23,8 @@ class Clustering:
     """Three groups of participants by score.
 
     `boundaries` lie midway between neighbouring distinct scores; `labels` maps participant to
-    LOW, MED or HIGH; sums of squares are in squared units of the score.
+    LOW, MED or HIGH; sums of squares are in squared units of the score. `tied` are the other cuts
+    (greatest score of LOW, of MED) whose sum of squares is the same.
     """
 
     withinss: float
@@ -33,6 +34,7 @@ class Clustering:
     boundaries: tuple[float, float]
     centers: tuple[float, float, float]
     labels: dict[str, str]
+    tied: tuple[tuple[float, float], ...] = ()
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -56,6 +58,18 @@ class Clustering:
             "labels": dict(self.labels),
         }
 
+    def note(self) -> str | None:
+        """What to tell of a tie, or None."""
+        if not self.tied:
+            return None
+        cuts = " or ".join(f"{low:g} and {med:g}" for low, med in self.tied)
+        ways = "another way" if len(self.tied) == 1 else f"{len(self.tied)} other ways"
+        return (
+            f"the quiz scores form three groups equally well in {ways}: LOW and MED end at "
+            f"{self.max_low:g} and {self.max_med:g} (used: the lowest cuts), or at {cuts}; the "
+            "ANOVAs of the other grouping stand under sensitivity, other_groupings"
+        )
+
 
 def knowledge_groups(scores: Mapping[str, float]) -> Clustering:
     """Group participants by score; ties between optima go to the lowest cuts.
@@ -71,7 +85,7 @@ def knowledge_groups(scores: Mapping[str, float]) -> Clustering:
         )
     low, med, cost = _all_groupings(distinct, counts.astype(float))
     total = _interval_costs(distinct, counts.astype(float))[0, -1]
-    best = int(np.flatnonzero(cost <= cost.min() + TIE * total)[0])
+    best, *tied = np.flatnonzero(cost <= cost.min() + TIE * total).tolist()
     rest = np.delete(cost, best)
     max_low, max_med = float(distinct[low[best]]), float(distinct[med[best]])
     masks = (values <= max_low, (values > max_low) & (values <= max_med), values > max_med)
@@ -86,11 +100,16 @@ def knowledge_groups(scores: Mapping[str, float]) -> Clustering:
             float(distinct[med[best]] + distinct[med[best] + 1]) / 2,
         ),
         centers=(centers[0], centers[1], centers[2]),
-        labels={
-            who: KNOWLEDGE[int(score > max_low) + int(score > max_med)]
-            for who, score in scores.items()
-        },
+        labels=cut_at(scores, max_low, max_med),
+        tied=tuple((float(distinct[low[one]]), float(distinct[med[one]])) for one in tied),
     )
+
+
+def cut_at(scores: Mapping[str, float], max_low: float, max_med: float) -> dict[str, str]:
+    """The group of each participant, where LOW ends at `max_low` and MED at `max_med`."""
+    return {
+        who: KNOWLEDGE[int(score > max_low) + int(score > max_med)] for who, score in scores.items()
+    }
 
 
 def _interval_costs(distinct: Floats, counts: Floats) -> Floats:

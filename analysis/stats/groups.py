@@ -28,7 +28,9 @@ def grouped(study: StudyData) -> tuple[StudyData, Clustering | Absent]:
         return study, clustering
     formed = pd.Series(clustering.labels, dtype=object)
     if not study.has("knowledge"):
-        return study.with_groups(formed), clustering
+        told = clustering.note()
+        study = study.with_groups(formed)
+        return (study.noted(told) if told else study), clustering
     stated = study.participants["knowledge"].dropna()
     both = stated.index.intersection(formed.index)
     moved = [str(who) for who in both if stated[who] != formed[who]]

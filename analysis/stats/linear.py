@@ -1,6 +1,7 @@
 """Least squares with columns added to a base: the incremental F test, and one added slope."""
 
 import numpy as np
+from scipy import stats
 
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import Floats
@@ -19,21 +20,27 @@ def added_columns(y: Floats, base: Floats, extra: Floats) -> FTest:
     df2 = len(y) - rank
     if df1 < extra.shape[1]:
         raise Refusal("the effect cannot be told apart from the analysis cells")
-    import statsmodels.api as sm
-
-    both = sm.OLS(y, full).fit()
-    if df2 < 1 or bool((np.abs(both.resid) <= FLAT * np.abs(y).max()).all()):
+    both, alone = _residuals(y, full), _residuals(y, base)
+    if df2 < 1 or bool((np.abs(both) <= FLAT * np.abs(y).max()).all()):
         raise Refusal("no error variance is left to test against")
-    f, p, _ = both.compare_f_test(sm.OLS(y, base).fit())
-    ss = max(0.0, float(f)) * df1 * float(both.mse_resid)
-    return FTest(df1, df2, ss, float(both.ssr), max(0.0, float(f)), float(p))
+    error = float(both @ both)
+    ss = max(0.0, float(alone @ alone) - error)
+    f = ss / df1 / (error / df2)
+    return FTest(df1, df2, ss, error, f, float(stats.f.sf(f, df1, df2)))
 
 
 def added_slope(y: Floats, base: Floats, column: Floats) -> Contrast:
-    """The slope of one column given `base`, with its standard error, t and p."""
-    import statsmodels.api as sm
+    """The slope of one column given `base`, with its standard error, t and p.
 
+    It is that of y on what `base` leaves of the column (Frisch, Waugh & Lovell)."""
     test = added_columns(y, base, column[:, None])
-    fit = sm.OLS(y, np.column_stack([base, column])).fit()
-    estimate, se = float(fit.params[-1]), float(fit.bse[-1])
+    left = _residuals(column, base)
+    weight = float(left @ left)
+    estimate = float(left @ y) / weight
+    se = float(np.sqrt(test.mse / weight))
     return Contrast(estimate, se, test.df2, estimate / se, test.p)
+
+
+def _residuals(y: Floats, columns: Floats) -> Floats:
+    left: Floats = y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]
+    return left

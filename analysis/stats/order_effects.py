@@ -15,18 +15,19 @@ from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import OUTCOMES
 from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.cellmodel import CELLS, Contrast, contrast_row
+from analysis.stats.level import ALPHA
 from analysis.stats.linear import added_slope
 
 #: A code of +-1 a participant (index: participant; NaN where unknown).
 Code: TypeAlias = Callable[[StudyData], pd.Series]
 
 
-def order_rows(study: StudyData) -> dict[str, list[Row] | Absent]:
+def order_rows(study: StudyData, alpha: float = ALPHA) -> dict[str, list[Row] | Absent]:
     """Round, order and building effects of each outcome, as far as the source knows them."""
-    return {outcome: attempt(_rows, study, outcome) for outcome in OUTCOMES}
+    return {outcome: attempt(_rows, study, outcome, alpha) for outcome in OUTCOMES}
 
 
-def _rows(study: StudyData, outcome: str) -> list[Row]:
+def _rows(study: StudyData, outcome: str, alpha: float) -> list[Row]:
     effects: list[tuple[str, str, Code, bool]] = []
     if study.has("order"):
         effects += [
@@ -51,9 +52,9 @@ def _rows(study: StudyData, outcome: str) -> list[Row]:
     for effect, words, code, within in effects:
         slope = attempt(_slope, study, outcome, code, within)
         numbers: Row = (
-            dict.fromkeys(("estimate", "SE", "df", "t.ratio", "p"), slope)
+            dict.fromkeys(("estimate", "SE", "df", "lower.CL", "upper.CL", "t.ratio", "p"), slope)
             if isinstance(slope, Absent)
-            else {**contrast_row(slope), "p": slope.p}
+            else {**contrast_row(slope, alpha), "p": slope.p}
         )
         rows.append({"effect": effect, "contrast": words, **numbers})
     return rows

@@ -22,25 +22,29 @@ from analysis.stats.cellmodel import (
     weights_of,
 )
 from analysis.stats.corrections import adjusted, tukey
+from analysis.stats.level import ALPHA
 
 
 @dataclass(frozen=True)
 class RoundModels:
-    """Saturated models of one outcome: each round, their mean and adaptive - static."""
+    """Saturated models of one outcome: each round, their mean and adaptive - static; `alpha` is
+    what their intervals are made for."""
 
     static: CellModel
     adaptive: CellModel
     mean: CellModel
     difference: CellModel
+    alpha: float = ALPHA
 
     @classmethod
-    def of(cls, pair: Paired) -> "RoundModels":
+    def of(cls, pair: Paired, alpha: float = ALPHA) -> "RoundModels":
         """Fit the four models to the listwise sample."""
         return cls(
-            *(
-                fit_cells(values, pair.cell)
-                for values in (pair.static, pair.adaptive, pair.mean, pair.difference)
-            )
+            fit_cells(pair.static, pair.cell),
+            fit_cells(pair.adaptive, pair.cell),
+            fit_cells(pair.mean, pair.cell),
+            fit_cells(pair.difference, pair.cell),
+            alpha,
         )
 
     def by_round(self) -> Iterator[tuple[str, CellModel]]:
@@ -79,18 +83,24 @@ def _deviations(model: CellModel) -> list[float | Absent]:
 
 
 def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
-    """Unweighted means by knowledge, complexity, adaptivity and cell, with 95% intervals."""
+    """Unweighted means by knowledge, complexity, adaptivity and cell, with intervals."""
     return {
         "knowledge": [
-            {"knowledge": group, **_mean_row(models.mean.contrast(weights_of(_row_of(group))))}
+            {
+                "knowledge": group,
+                **_mean_row(models.mean.contrast(weights_of(_row_of(group))), models.alpha),
+            }
             for group in KNOWLEDGE
         ],
         "complexity": [
-            {"complexity": level, **_mean_row(models.mean.contrast(weights_of(_column_of(level))))}
+            {
+                "complexity": level,
+                **_mean_row(models.mean.contrast(weights_of(_column_of(level))), models.alpha),
+            }
             for level in COMPLEXITY
         ],
         "adaptivity": [
-            {"adaptivity": name, **_mean_row(model.contrast(weights_of(CELLS)))}
+            {"adaptivity": name, **_mean_row(model.contrast(weights_of(CELLS)), models.alpha)}
             for name, model in models.by_round()
         ],
         "knowledge_complexity_adaptivity": [
@@ -98,7 +108,7 @@ def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
                 "knowledge": group,
                 "complexity": level,
                 "adaptivity": name,
-                **_mean_row(model.contrast(weights_of([(group, level)]))),
+                **_mean_row(model.contrast(weights_of([(group, level)])), models.alpha),
             }
             for name, model in models.by_round()
             for level in COMPLEXITY
@@ -107,8 +117,8 @@ def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
     }
 
 
-def _mean_row(mean: Contrast) -> Row:
-    lower, upper = mean.interval(0.95)
+def _mean_row(mean: Contrast, alpha: float) -> Row:
+    lower, upper = mean.interval(1 - alpha)
     return {
         "emmean": mean.estimate,
         "SE": mean.se,
@@ -124,18 +134,20 @@ def complexity_within_knowledge_by_round(models: RoundModels) -> list[Row]:
         row
         for name, model in models.by_round()
         for group in KNOWLEDGE
-        for row in _levels_within(model, group, {"adaptivity": name})
+        for row in _levels_within(model, group, {"adaptivity": name}, models.alpha)
     ]
 
 
 def complexity_within_knowledge_avg(models: RoundModels) -> list[Row]:
     """The same comparisons on the mean of the two rounds."""
-    return [row for group in KNOWLEDGE for row in _levels_within(models.mean, group, {})]
+    return [
+        row for group in KNOWLEDGE for row in _levels_within(models.mean, group, {}, models.alpha)
+    ]
 
 
-def _levels_within(model: CellModel, group: str, more: Row) -> list[Row]:
+def _levels_within(model: CellModel, group: str, more: Row, alpha: float) -> list[Row]:
     cells = {level: (group, level) for level in COMPLEXITY}
-    return _family(model, cells, {"knowledge": group, **more})
+    return _family(model, cells, {"knowledge": group, **more}, alpha)
 
 
 def difference_knowledge_within_complexity(models: RoundModels) -> list[Row]:
@@ -147,15 +159,18 @@ def difference_knowledge_within_complexity(models: RoundModels) -> list[Row]:
             models.difference,
             {group: (group, level) for group in KNOWLEDGE},
             {"complexity": level},
+            models.alpha,
         )
     ]
 
 
-def _family(model: CellModel, cells: dict[str, tuple[str, str]], where: Row) -> list[Row]:
+def _family(
+    model: CellModel, cells: dict[str, tuple[str, str]], where: Row, alpha: float
+) -> list[Row]:
     pairs = list(combinations(cells, 2))
     contrasts = [model.contrast(_gap(cells[one], cells[other])) for one, other in pairs]
     return [
-        {"contrast": f"{one} - {other}", **where, **contrast_row(contrast), **p_values}
+        {"contrast": f"{one} - {other}", **where, **contrast_row(contrast, alpha), **p_values}
         for (one, other), contrast, p_values in zip(
             pairs, contrasts, adjusted([contrast.p for contrast in contrasts]), strict=True
         )
@@ -174,7 +189,7 @@ def difference_all_pairs(models: RoundModels) -> list[Row]:
     return [
         {
             "contrast": f"{' '.join(one)} - {' '.join(other)}",
-            **contrast_row(contrast),
+            **contrast_row(contrast, models.alpha),
             **p_values,
             "p_tukey": contrast.t if isinstance(contrast.t, Absent) else next(tukey_values),
         }
@@ -195,7 +210,7 @@ def simple_adaptivity_within_cell(models: RoundModels) -> list[Row]:
                     "contrast": "adaptive - static",
                     "knowledge": group,
                     "complexity": level,
-                    **contrast_row(contrast),
+                    **contrast_row(contrast, models.alpha),
                     "p.value": contrast.p,
                 }
             )
@@ -203,9 +218,9 @@ def simple_adaptivity_within_cell(models: RoundModels) -> list[Row]:
 
 
 def adaptivity_marginal(models: RoundModels) -> list[Row]:
-    """adaptive - static over all cells, with the 90% interval that equivalence is read from."""
+    """adaptive - static over all cells, with the interval that equivalence is read from."""
     contrast = models.difference.contrast(weights_of(CELLS))
-    lower, upper = contrast.interval(0.90)
+    lower, upper = contrast.interval(1 - 2 * models.alpha)
     return [
         {
             "contrast": "adaptive - static",

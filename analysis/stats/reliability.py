@@ -1,46 +1,58 @@
 """Cronbach's alpha of the four Likert items (paper 5.3)."""
 
+import numpy as np
 import pandas as pd
+from scipy import stats
 
 from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
 from analysis.sources.frames import StudyData
+from analysis.stats.level import ALPHA
 
 
-def cronbach_alpha(items: pd.DataFrame) -> tuple[float | Absent, tuple[float | Absent, ...]]:
-    """Cronbach's alpha (1951) and its 95% interval (Feldt, 1965), covariances over complete pairs.
+def cronbach_alpha(
+    items: pd.DataFrame, level: float = 1 - ALPHA
+) -> tuple[float | Absent, tuple[float | Absent, float | Absent]]:
+    """Cronbach's alpha (1951) and its interval (Feldt, 1965), covariances over complete pairs.
 
     Listwise alpha is this of the complete rows.
     """
     if len(items) < 2:
         none = Absent("fewer than two answered rows")
         return none, (none, none)
-    if not float(items.cov().to_numpy().sum()) > 0:
+    covariance = items.cov().to_numpy()
+    if not float(covariance.sum()) > 0:
         none = Absent("items that do not vary, or that nobody answered together")
         return none, (none, none)
-    import pingouin
+    rows, count = items.shape
+    alpha = count / (count - 1) * (1 - float(np.trace(covariance)) / float(covariance.sum()))
+    df1, df2 = rows - 1, (rows - 1) * (count - 1)
+    low, high = (
+        1 - (1 - alpha) * float(stats.f.ppf(share, df1, df2))
+        for share in ((1 + level) / 2, (1 - level) / 2)
+    )
+    return alpha, (low, high)
 
-    alpha, interval = pingouin.cronbach_alpha(items, nan_policy="pairwise")
-    return float(alpha), tuple(interval.tolist())
 
-
-def alpha_rows(study: StudyData) -> dict[str, Row]:
+def alpha_rows(study: StudyData, alpha: float = ALPHA) -> dict[str, Row]:
     """Alpha over all rounds and in each, listwise and pairwise, with the rows they rest on."""
     tables = {"all": study.rounds} | {
         name: study.rounds[study.rounds["adaptivity"] == name] for name in ADAPTIVITY
     }
-    return {name: _alpha_row(table[list(LIKERT_ITEMS)]) for name, table in tables.items()}
+    return {
+        name: _alpha_row(table[list(LIKERT_ITEMS)], 1 - alpha) for name, table in tables.items()
+    }
 
 
-def _alpha_row(items: pd.DataFrame) -> Row:
+def _alpha_row(items: pd.DataFrame, level: float) -> Row:
     answered = items.dropna(how="all")
     complete = items.dropna()
-    listwise, interval = cronbach_alpha(complete)
+    listwise, interval = cronbach_alpha(complete, level)
     return {
         "rows_any": len(answered),
         "rows_complete": len(complete),
         "listwise": listwise,
-        "pairwise": cronbach_alpha(answered)[0],
+        "pairwise": cronbach_alpha(answered, level)[0],
         "lower": interval[0],
         "upper": interval[1],
     }

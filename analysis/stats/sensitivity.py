@@ -6,11 +6,12 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, Tree, attempt
-from analysis.sources.factors import COMPLEXITY, OUTCOMES
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, OUTCOMES
 from analysis.sources.frames import Floats, StudyData, both_rounds, paired
 from analysis.sources.samples import Sample, left_by
 from analysis.stats.anova import mixed_anova
 from analysis.stats.cellmodel import CELLS
+from analysis.stats.clustering import Clustering, cut_at
 from analysis.stats.groups import grouped
 from analysis.stats.linear import added_columns
 from game.tables.exclusions import ExclusionRules
@@ -71,6 +72,27 @@ def by_design_cell(study: StudyData, excluded: tuple[str, ...]) -> list[Row]:
         }
         rows.append(
             {**where, "randomised": int(inside.sum()), "excluded": int((inside & gone).sum())}
+        )
+    return rows
+
+
+def other_grouping_rows(study: StudyData, clustering: Clustering) -> list[Row]:
+    """The ANOVA of every outcome under each other grouping that fits the scores as well."""
+    scores = {
+        str(who): float(score) for who, score in study.participants["quiz_static"].dropna().items()
+    }
+    rows: list[Row] = []
+    for max_low, max_med in clustering.tied:
+        labels = cut_at(scores, max_low, max_med)
+        regrouped = study.with_groups(pd.Series(labels, dtype=object))
+        members = list(labels.values())
+        rows.append(
+            {
+                "max_low": max_low,
+                "max_med": max_med,
+                "sizes": {group: members.count(group) for group in KNOWLEDGE},
+                "results": {outcome: _short_anova(regrouped, outcome) for outcome in OUTCOMES},
+            }
         )
     return rows
 

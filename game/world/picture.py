@@ -82,7 +82,7 @@ def picture(building: Building, scale: MapScale) -> tuple[Row, ...]:
     for room in building.rooms:
         free = tuple(cell for cell in room.cells if cell not in marks)
         for line in label_lines(room.name, free, scale) if free else ():
-            for column, letter in enumerate(line.text, start=line.column):
+            for column, letter in line.letters:
                 canvas[line.row][column] = Stroke(letter, Ink.NAME)
     return tuple(tuple(row) for row in canvas)
 

@@ -227,6 +227,46 @@ def test_one_score_for_all_is_a_problem(
     assert numbers["outcomes"]["victims"]["paired"]["t"] is not None
 
 
+def test_a_tie_of_the_scores_is_noted_with_the_other_groupings_anovas(
+    battery: Battery, table: pd.DataFrame
+) -> None:
+    people = table["participant"].unique()
+    scores = {who: float(at % 4) for at, who in enumerate(people)}
+    result, numbers = battery(table.drop(columns="knowledge"), quiz=scores)
+    assert any("equally well" in note for note in result.notes)
+    others = numbers["sensitivity"]["other_groupings"]
+    assert [(row["max_low"], row["max_med"]) for row in others] == [(0, 2), (1, 2)]
+    regrouped = {who: "LOW" if score <= 1 else "MED" if score <= 2 else "HIGH"
+                 for who, score in scores.items()}  # fmt: skip
+    stated = table.assign(knowledge=table["participant"].map(regrouped))
+    _, direct = battery(stated)
+    main = {row["effect"]: row["F"] for row in direct["outcomes"]["victims"]["anova"]}
+    ours = {row["effect"]: row["F"] for row in others[1]["results"]["victims"]}
+    assert ours == pytest.approx(main)
+    assert numbers["clustering"]["labels"] == {
+        who: "LOW" if score < 1 else "MED" if score < 2 else "HIGH" for who, score in scores.items()
+    }
+
+
+def test_why_three_tests_of_adaptivity_differ_is_said_once(
+    battery: Battery, make_table: MakeTable
+) -> None:
+    table = make_table(dict.fromkeys(CELLS, 5) | {CELLS[0]: 60}).drop(columns="disobeyed")
+    big = (table["knowledge"] == "LOW") & (table["complexity"] == "C1")
+    adaptive = table["adaptivity"] == "adaptive"
+    for outcome in MENTAL_STATES[:2]:
+        table[outcome] = np.clip(table[outcome] + np.where(big, -6, 4) * adaptive, 1, 100)
+    result, numbers = battery(table)
+    told = [note for note in result.notes if "count the nine cells equally" in note]
+    assert len(told) == 1 and "engagement (ANOVA p < .001" in told[0]
+    rows = {row["test"]: row for row in numbers["outcomes"]["engagement"]["adaptivity_tests"]}
+    anova = numbers["outcomes"]["engagement"]["anova"][4]
+    assert anova["effect"] == "adaptivity" and rows["ANOVA"]["p"] == pytest.approx(anova["p"])
+    assert rows["HC3"]["p"] == numbers["outcomes"]["engagement"]["hc3_diff"][0]["p"]
+    assert rows["paired t"]["p"] == numbers["outcomes"]["engagement"]["paired"]["p"]
+    assert rows["ANOVA"]["estimate"] > rows["paired t"]["estimate"]
+
+
 def test_exclusions_are_applied_and_everybody_shown(
     battery: Battery, make_table: MakeTable
 ) -> None:
@@ -271,9 +311,10 @@ def test_from_file_to_figures(tmp_path: Path, table: pd.DataFrame) -> None:
         "fig8_performance.png",
         "fig9_engagement.png",
         "adaptivity_estimates.png",
+        *(f"cells_{outcome}.png" for outcome in OUTCOMES),
     }
     captions = (tmp_path / "figures" / "captions.txt").read_text(encoding="utf-8")
-    assert all(name in captions for name in drawn)
+    assert all(name.removesuffix(".png") in captions for name in drawn)
     assert result.exit_status == 0
 
 

@@ -86,7 +86,9 @@ anova_of <- function(wide) {
   rows <- lapply(EFFECTS, function(effect) {
     at <- table[effect, ]
     within <- grepl("adaptivity", effect)
+    end <- function(below) eta_end(at[["F value"]], at[["num Df"]], at[["den Df"]], below)
     list(effect = effect, df1 = at[["num Df"]], df2 = at[["den Df"]], ss = at[["Sum Sq"]],
+         pes.lower = end(0.95), pes.upper = end(0.05),
          ss_error = at[["Error SS"]], mse = at[["Error SS"]] / at[["den Df"]], F = at[["F value"]],
          p = at[["Pr(>F)"]], pes = at[["Sum Sq"]] / (at[["Sum Sq"]] + at[["Error SS"]]),
          ges = none[[effect]], ges_obs_knowledge = knowledge[[effect]],
@@ -95,10 +97,34 @@ anova_of <- function(wide) {
   list(rows = rows, fit = fit, long = long, mean_fit = mean_fit, diff_fit = diff_fit)
 }
 
-adjusted <- function(emm, by, what = "pairwise") {
-  shown <- function(adjust) as.data.frame(summary(contrast(emm, what, by = by), adjust = adjust))
+root <- function(gap, lower, upper) uniroot(gap, c(lower, upper), extendInt = "yes", tol = 1e-10)$root
+
+# The noncentrality of an observed t, or F, at which it has this probability below it.
+noncentral_t <- function(t, df, below) root(function(ncp) pt(t, df, ncp) - below, t - 6, t + 6)
+noncentral_f <- function(f, df1, df2, below) {
+  if (pf(f, df1, df2) <= below) return(0)
+  root(function(ncp) pf(f, df1, df2, max(ncp, 0)) - below, 0, f * df1 + 20)
+}
+
+eta_end <- function(f, df1, df2, below) {
+  ncp <- noncentral_f(f, df1, df2, below)
+  ncp / (ncp + df2)
+}
+
+# d is the estimate over the pooled standard deviation within cells, its interval that of the
+# noncentral t.
+with_d <- function(frame, sigma) {
+  scale <- frame$SE / sigma
+  frame$d <- frame$estimate / sigma
+  frame$d.lower <- mapply(noncentral_t, frame$t.ratio, frame$df, 0.975) * scale
+  frame$d.upper <- mapply(noncentral_t, frame$t.ratio, frame$df, 0.025) * scale
+  frame
+}
+
+adjusted <- function(emm, by, sigma, what = "pairwise") {
+  shown <- function(adjust) as.data.frame(summary(contrast(emm, what, by = by), infer = c(TRUE, TRUE), adjust = adjust))
   base <- shown("none")
-  out <- base[setdiff(names(base), "p.value")]
+  out <- with_d(base[setdiff(names(base), "p.value")], sigma(base))
   for (adjust in c("none", "bonf", "sidak", "holm")) out[[paste0("p_", adjust)]] <- shown(adjust)$p.value
   out
 }
@@ -163,13 +189,15 @@ hc3_of <- function(wide) {
 paired_of <- function(wide) {
   d <- wide$a - wide$s
   test <- t.test(d)
+  dz_end <- function(below) noncentral_t(test$statistic[[1]], length(d) - 1, below) / sqrt(length(d))
   # The bound is half a standard deviation of the static round, the smallest effect of interest.
   bound <- 0.5 * sd(wide$s)
   n <- length(d); se <- sd(d) / sqrt(n)
   low <- pt((mean(d) + bound) / se, n - 1, lower.tail = FALSE)
   high <- pt((mean(d) - bound) / se, n - 1)
   list(mean_diff = mean(d), sd_diff = sd(d), t = test$statistic[[1]], df = n - 1, p = test$p.value,
-       dz = mean(d) / sd(d),
+       lower.CL = test$conf.int[1], upper.CL = test$conf.int[2], dz = mean(d) / sd(d),
+       dz.lower = dz_end(0.975), dz.upper = dz_end(0.025),
        bf10_jzs_r0707 = extractBF(ttestBF(d, rscale = sqrt(2) / 2), onlybf = TRUE)[[1]],
        tost_bound = bound, tost_p = max(low, high))
 }
@@ -212,19 +240,25 @@ outcome_of <- function(data, outcome) {
   full <- emmeans(fit, ~ knowledge * complexity * adaptivity)
   diff_fit <- lm(a - s ~ knowledge * complexity, wide)
   diffs <- emmeans(diff_fit, ~ knowledge * complexity)
-  all36 <- adjusted(diffs, NULL)
+  residual <- function(y) sigma(lm(y ~ knowledge * complexity, wide))
+  sigmas <- c(static = residual(wide$s), adaptive = residual(wide$a))
+  of_round <- function(rows) sigmas[as.character(rows$adaptivity)]
+  of_mean <- function(rows) residual((wide$s + wide$a) / 2)
+  of_diff <- function(rows) residual(wide$a - wide$s)
+  all36 <- adjusted(diffs, NULL, of_diff)
   all36$p_tukey <- as.data.frame(summary(contrast(diffs, "pairwise"), adjust = "tukey"))$p.value
-  simple <- as.data.frame(contrast(full, "revpairwise", by = c("knowledge", "complexity")))
+  simple <- as.data.frame(summary(contrast(full, "revpairwise", by = c("knowledge", "complexity")), infer = c(TRUE, TRUE)))
+  simple <- with_d(simple, of_diff(simple))
   marginal <- as.data.frame(confint(contrast(emmeans(fit, ~ adaptivity), "revpairwise"), level = 0.9))
   list(
     n = nrow(wide), n_dropped = people - nrow(wide), anova = made$rows, cells = records(cells),
     emm = list(knowledge = emm_rows(fit, "knowledge"), complexity = emm_rows(fit, "complexity"),
                adaptivity = emm_rows(fit, "adaptivity"),
                knowledge_complexity_adaptivity = records(plain(as.data.frame(full)))),
-    posthoc_complexity_within_knowledge_by_round = records(plain(adjusted(full, c("knowledge", "adaptivity"), "pairwise"))),
-    posthoc_complexity_within_knowledge_avg = records(plain(adjusted(emmeans(fit, ~ complexity | knowledge), "knowledge"))),
+    posthoc_complexity_within_knowledge_by_round = records(plain(adjusted(full, c("knowledge", "adaptivity"), of_round))),
+    posthoc_complexity_within_knowledge_avg = records(plain(adjusted(emmeans(fit, ~ complexity | knowledge), "knowledge", of_mean))),
     simple_adaptivity_within_cell = records(plain(simple)),
-    posthoc_diff_knowledge_within_complexity = records(plain(adjusted(diffs, "complexity"))),
+    posthoc_diff_knowledge_within_complexity = records(plain(adjusted(diffs, "complexity", of_diff))),
     posthoc_diff_all36 = records(plain(all36)),
     adaptivity_marginal = records(plain(marginal)),
     wrong = wrong_of(made, wide), assumptions = assumptions_of(wide), hc3_diff = hc3_of(wide),

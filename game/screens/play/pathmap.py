@@ -149,7 +149,7 @@ def _names(story: MissionStory) -> dict[Cell, Pin]:
     for room in building.rooms:
         free = tuple(cell for cell in room.cells if cell not in taken)
         for line in label_lines(room.name, free, LABEL_SCALE) if free else ():
-            for column, letter in enumerate(line.text, start=line.column):
+            for column, letter in line.letters:
                 pins[column, LABEL_SCALE.cells * line.row] = letter, "name"
     return pins
 

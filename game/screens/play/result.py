@@ -17,6 +17,7 @@ from textual.screen import Screen
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.past_missions import (
+    PastMission,
     newest_journals,
     past_mission,
     past_missions,
@@ -328,7 +329,7 @@ class ResultScreen(Screen[None]):
     def _look_around(self) -> None:
         """Compare with what was played before, and with a literal reader."""
         now = past_mission(self.journal)
-        if now is not None:
+        if isinstance(now, PastMission):
             told = standing(now, past_missions(newest_journals(self.journal.parent.parent)))
             self.app.call_from_thread(self._compare, told, None)
         story = self.story

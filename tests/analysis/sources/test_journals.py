@@ -14,7 +14,7 @@ from analysis.pages.what_if import judged_missions, shares, stretches
 from analysis.sources.absent import SourceError
 from analysis.sources.recorded import ANALYSED, Recorded
 from analysis.sources.samples import left_by
-from analysis.sources.source import load_recorded, load_study
+from analysis.sources.source import load, load_recorded
 from analysis.sources.study_folder import read_study_folder
 from analysis.sources.tables_folder import read_tables, write_tables
 from analysis.stats.groups import grouped
@@ -93,12 +93,12 @@ def test_no_sessions(kind: str, tmp_path: Path) -> None:
     if kind != "nothing":
         (tmp_path / "study.toml").touch()
     with pytest.raises(SourceError, match=r"no sessions|neither a study folder"):
-        load_study(tmp_path)
+        load(tmp_path)
 
 
 def test_a_mode_without_sessions_tells_the_others(made: Path) -> None:
     with pytest.raises(SourceError, match="--mode simulated"):
-        load_study(made, mode="live")
+        load(made, mode="live")
 
 
 def test_real_and_simulated_together_are_refused_unless_asked(copy: Path) -> None:
@@ -189,7 +189,7 @@ def test_nobody_randomised(copy: Path) -> None:
         at = next(n for n, line in enumerate(lines) if '"type":"allocated"' in line)
         journal(copy, name).write_text("".join(lines[:at]))
     with pytest.raises(SourceError, match="nobody got as far as the allocation"):
-        load_study(copy, check=False)
+        load(copy, check=False)
 
 
 def test_algorithm_1_again_gives_the_recorded_levels(recorded: Recorded) -> None:

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from analysis.sources.absent import Refusal
-from analysis.stats.clustering import knowledge_groups
+from analysis.sources.factors import KNOWLEDGE
+from analysis.stats.clustering import cut_at, knowledge_groups
 
 scores_lists = st.lists(st.integers(0, 20), min_size=3, max_size=40).filter(
     lambda scores: len(set(scores)) >= 3
@@ -85,3 +86,25 @@ def test_a_tie_goes_to_the_lowest_cuts() -> None:
 def test_fewer_than_three_distinct_scores(scores: list[float]) -> None:
     with pytest.raises(Refusal, match="three"):
         knowledge_groups(named(scores))
+
+
+def test_a_tie_is_told_with_every_other_way() -> None:
+    scores = {f"P{at}": float(at) for at in range(4)}
+    found = knowledge_groups(scores)
+    assert (found.max_low, found.max_med) == (0, 1)
+    assert found.tied == ((0, 2), (1, 2))
+    note = found.note()
+    assert note is not None and "0 and 2 or 1 and 2" in note
+    for low, med in found.tied:
+        labels = cut_at(scores, low, med)
+        assert within({who: scores[who] for who in labels}, labels) == pytest.approx(found.withinss)
+
+
+def within(scores: dict[str, float], labels: dict[str, str]) -> float:
+    groups = [[scores[who] for who in scores if labels[who] == group] for group in KNOWLEDGE]
+    return sum(sum((x - sum(g) / len(g)) ** 2 for x in g) for g in groups)
+
+
+def test_without_a_tie_nothing_is_told() -> None:
+    found = knowledge_groups({"A": 0.0, "B": 1.0, "C": 5.0, "D": 20.0})
+    assert found.tied == () and found.note() is None

@@ -1,0 +1,153 @@
+"""Ready-made sentences in APA form, one for each test; *x* stands for an italic x.
+
+Each takes a row of the results as `ana analyse --json` writes it; a null in it becomes a dash.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from analysis.stats.apa import DASH, bounded, decimal, equals, p_value, share
+from analysis.stats.level import percent
+
+Numbers = Mapping[str, Any]
+
+OUTCOME_WORDS = {
+    "victims": "the number of victims rescued",
+    "engagement": "engagement",
+    "confidence": "confidence",
+    "frustration": "frustration",
+    "confusion": "confusion",
+    "preference": "preference",
+}
+EFFECT_WORDS = {
+    "knowledge": "main effect of knowledge",
+    "complexity": "main effect of static level",
+    "knowledge:complexity": "interaction of knowledge and static level",
+    "adaptivity": "effect of the adaptivity of instruction",
+    "knowledge:adaptivity": "interaction of knowledge and adaptivity",
+    "complexity:adaptivity": "interaction of static level and adaptivity",
+    "knowledge:complexity:adaptivity": "interaction of adaptivity, static level and knowledge",
+}
+
+
+def interval(low: float | None, high: float | None, level: float | None = None) -> str:
+    """ "[0.12, 0.31]", with its level before it if one is given."""
+    if low is None or high is None:
+        return DASH
+    ends = f"[{decimal(low)}, {decimal(high)}]"
+    return ends if level is None else f"{percent(level)} CI {ends}"
+
+
+def bounded_interval(low: float | None, high: float | None, digits: int = 2) -> str:
+    """The same for what lies between -1 and 1: "[.04, .26]"."""
+    if low is None or high is None:
+        return DASH
+    return f"[{bounded(low, digits)}, {bounded(high, digits)}]"
+
+
+def p_phrase(p: float | None) -> str:
+    """ "*p* = .021" or "*p* < .001"."""
+    return f"*p* {equals(p_value(p))}"
+
+
+def anova_sentence(outcome: str, row: Numbers, alpha: float) -> str:
+    """One effect of the mixed ANOVA on one outcome."""
+    found = "a significant" if row["p"] < alpha else "no significant"
+    wilks = "" if row["wilks"] is None else f"Wilks' Λ = {bounded(row['wilks'])}, "
+    ends = bounded_interval(row["pes.lower"], row["pes.upper"])
+    return (
+        f"There was {found} {EFFECT_WORDS[row['effect']]} on {OUTCOME_WORDS[outcome]}, {wilks}"
+        f"*F*({row['df1']}, {row['df2']}) = {decimal(row['F'])}, {p_phrase(row['p'])}, "
+        f"partial *η*² {equals(share(row['pes']))}, {percent(1 - 2 * alpha)} CI {ends}."
+    )
+
+
+def level_sentence(
+    state: str, knowledge: str, greater: str, less: str, row: Numbers, alpha: float
+) -> str:
+    """Two static levels compared within a knowledge group; `row` is greater less less."""
+    if row["estimate"] is None:
+        return (
+            f"{knowledge}-knowledge participants: {greater} and {less} cannot be compared on "
+            f"{state}, because one of the cells is empty."
+        )
+    way = "higher" if row["estimate"] >= 0 else "lower"
+    return (
+        f"{knowledge}-knowledge participants reported {way} {state} with {greater} than with "
+        f"{less} instructions, {_contrast(row, alpha)}{_verdict(row, alpha)}."
+    )
+
+
+def gain_sentence(outcome: str, greater: str, less: str, row: Numbers, alpha: float) -> str:
+    """Difference scores of two cells compared, as the paper words it (Fig. 9)."""
+    if row["estimate"] is None:
+        return f"Gains in {outcome} of {greater} and {less} cannot be compared: a cell is empty."
+    size = decimal(abs(row["estimate"]))
+    way = "greater" if row["estimate"] >= 0 else "smaller"
+    one, other = (f"({name.split()[0]}-knowledge, {name.split()[1]})" for name in (greater, less))
+    return (
+        f"{one} participants experienced a change in {outcome} when instructed adaptively that was "
+        f"{way} than that of {other} participants, by {size} points on average, "
+        f"{_contrast(row, alpha)}{_verdict(row, alpha)}."
+    )
+
+
+def _contrast(row: Numbers, alpha: float) -> str:
+    ends = interval(row["lower.CL"], row["upper.CL"], 1 - alpha)
+    d_ends = interval(row["d.lower"], row["d.upper"])
+    return (
+        f"*M* difference = {decimal(row['estimate'])}, {ends}, *t*({row['df']}) = "
+        f"{decimal(row['t.ratio'])}, {p_phrase(row['p_none'])} (Holm-adjusted "
+        f"{p_phrase(row['p_holm'])}), *d* = {decimal(row['d'])} {d_ends}"
+    )
+
+
+def _verdict(row: Numbers, alpha: float) -> str:
+    p = row["p_holm"]
+    return "" if p is not None and p < alpha else ", which is not significant"
+
+
+def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:
+    """adaptive - static over everybody, with equivalence and the Bayes factor."""
+    tost = row["tost_p"]
+    equivalent = (
+        "Whether they are equivalent cannot be tested."
+        if tost is None
+        else f"Within half a standard deviation of the static round the two were "
+        f"{'equivalent' if tost < alpha else 'not shown to be equivalent'} (two one-sided tests, "
+        f"{p_phrase(tost)})"
+    )
+    bayes = "" if row["bf10_jzs_r0707"] is None else f"; *BF*₁₀ = {_factor(row['bf10_jzs_r0707'])}"
+    return (
+        f"Counting people equally, {OUTCOME_WORDS[outcome]} differed by "
+        f"{decimal(row['mean_diff'])} between adaptive and static instruction, "
+        f"{interval(row['lower.CL'], row['upper.CL'], 1 - alpha)}, *t*({row['df']}) = "
+        f"{decimal(row['t'])}, {p_phrase(row['p'])}, *d*_z = {decimal(row['dz'])} "
+        f"{interval(row['dz.lower'], row['dz.upper'])}. {equivalent}{bayes}."
+    )
+
+
+def _factor(value: float) -> str:
+    return decimal(value) if 0.01 <= value < 1e4 else f"{value:.2e}"
+
+
+def alpha_sentence(row: Numbers, alpha: float, printed: str) -> str:
+    """Cronbach's alpha beside the paper's."""
+    if row["listwise"] is None:
+        return "Cronbach's *α* of the four preference items cannot be computed."
+    ends = bounded_interval(row["lower"], row["upper"], 3)
+    return (
+        f"Cronbach's *α* of the four preference items was {bounded(row['listwise'])}, "
+        f"{percent(1 - alpha)} CI {ends}, over {row['rows_complete']} complete rounds "
+        f"(paper: {printed})."
+    )
+
+
+def preferred_sentence(row: Numbers, alpha: float) -> str:
+    """How many preferred the adaptive instructor."""
+    ends = bounded_interval(row["lower.CL"], row["upper.CL"])
+    return (
+        f"Of {row['n']} participants who preferred one instructor, {row['adaptive']} "
+        f"({100 * row['share']:.0f}%) preferred the adaptive one, {percent(1 - alpha)} CI {ends}, "
+        f"exact binomial {p_phrase(row['p'])}."
+    )
