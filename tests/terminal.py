@@ -104,7 +104,19 @@ class Shown:
         stream.feed(_UNKNOWN_TO_PYTE.sub(b"", data))
 
 
-class Terminal(Shown):
+class Watched(Shown):
+    """A terminal that `select` can wait on."""
+
+    def fileno(self) -> int:
+        """What `select` waits on for output."""
+        raise NotImplementedError
+
+    def take(self) -> bool:
+        """Collect the output that is there, or wait for some. False once the program has ended."""
+        raise NotImplementedError
+
+
+class Terminal(Watched):
     """`command` running in a terminal of its own, 256 colours unless `env` says otherwise.
 
     Use as a context manager: on leaving, the program is hung up on and reaped.
@@ -162,11 +174,9 @@ class Terminal(Shown):
         return True
 
     def fileno(self) -> int:
-        """What `select` waits on for output."""
         return self._descriptor
 
     def take(self) -> bool:
-        """Collect the output that is there, or wait for some. False once the program has ended."""
         try:
             data = os.read(self._descriptor, 65536)
         except OSError:

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from game.cli import main
-from game.commands.ana_play import assigned, day_seed, options_of
+from game.commands.ana_play import assigned, options_of
 from game.errors import AnaError
 from game.world import load_building
 from game.world.placing import placed_anew
 from game.world.settings import MissionSettings
-from game.world.variant import Variant
+from game.world.variant import Variant, day_seed
 
 GIVEN = {
     "building": "harbour",
@@ -34,6 +34,14 @@ def test_the_options_define_the_mission() -> None:
     assert options.spec.level == 3
     assert options.settings.duration_ms == 90_000
     assert (options.seed, options.log_dir) == (7, Path("here"))
+
+
+def test_the_controls_are_an_option() -> None:
+    for controls in ("compass", "turn"):
+        options = options_of(**{**GIVEN, "controls": controls})  # type: ignore[arg-type]
+        assert options.settings.controls == controls
+    usual = options_of(**{**GIVEN, "assignments": ("controls=turn",)})  # type: ignore[arg-type]
+    assert usual.settings.controls == "turn"
 
 
 def test_a_difficulty_is_a_set_of_settings_that_others_override() -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from game.coach.acts import CoachRecord
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english
 from game.world.building import Building
 from game.world.events import MissionEvent
 from game.world.observation import Guidance, Observation
@@ -14,11 +16,13 @@ from game.world.settings import MissionSettings
 
 @dataclass(frozen=True)
 class Briefing:
-    """All that a coach receives before a mission. Nothing about the person who will play it."""
+    """All that a coach receives before a mission: nothing about the person who will play it, but
+    the `phrases` of the language they read."""
 
     building: Building
     settings: MissionSettings
     seed: int = 0
+    phrases: Phrasebook = field(default_factory=english)
 
 
 class Coach(Protocol):

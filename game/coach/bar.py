@@ -76,7 +76,7 @@ class Bar:
             self._compliance = self._compliance.restated(shown_level, distance)
         else:
             self._compliance = self._compliance.issued(
-                shown_level, distance, at_ms, *_opening_and_rest(instruction), notice
+                shown_level, distance, at_ms, *_opening_and_rest(scene, instruction), notice
             )
         self._number += 1
         told = ToldWay(scene, instruction)
@@ -234,13 +234,16 @@ class Bar:
         return found and scene.building.room_at(observation.position) is room
 
 
-def _opening_and_rest(instruction: Instruction) -> tuple[str, str]:
-    """The words that say what to do next, as far as the first sentence that is no mere turn, and
-    the others."""
+def _opening_and_rest(scene: Scene, instruction: Instruction) -> tuple[str, str]:
+    """The words that say what to do next, as far as the first sentence that is no mere turn
+    (without its full stop where others follow), and the others."""
     turns = 0
     for action, _ in instruction.tuples:
         if action != "Turn":
             break
         turns += 1
-    sentences = instruction.text.split(". ")
-    return ". ".join(sentences[: turns + 1]), ". ".join(sentences[turns + 1 :])
+    opening, rest = (
+        scene.phrases.joined(part)
+        for part in (instruction.sentences[: turns + 1], instruction.sentences[turns + 1 :])
+    )
+    return opening[:-1] if rest else opening, rest

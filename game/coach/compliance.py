@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene
+from game.coach.instructions.reading import letters
 from game.world.geometry import Cell, Heading
 from game.world.settings import Controls
 
@@ -76,11 +77,11 @@ class Compliance:
     ) -> Compliance:
         """Another instruction stands on the bar, whose `opening` says what to do next; `rest` are
         its other words."""
-        read_ms = at_ms + READING_MS + READING_MS_PER_LETTER * (len(opening) + len(notice))
-        slowly_ms = 2 * (READING_MS + READING_MS_PER_LETTER * len(opening + rest + notice))
+        read_ms = at_ms + READING_MS + READING_MS_PER_LETTER * letters(opening + notice)
+        slowly_ms = 2 * (READING_MS + READING_MS_PER_LETTER * letters(opening + rest + notice))
         notice_ms = self.notice_ms
         if notice:
-            notice_ms = at_ms + NOTICE_MS + NOTICE_MS_PER_LETTER * len(notice)
+            notice_ms = at_ms + NOTICE_MS + NOTICE_MS_PER_LETTER * letters(notice)
         return Compliance(
             level,
             most=distance,

@@ -11,9 +11,9 @@ from game.coach.acts import (
     CoachRecord,
     GoalReason,
     GoalSet,
+    InstructionIssued,
     IssueReason,
     Level,
-    LostBy,
     LostNoticed,
     NothingLeft,
 )
@@ -22,7 +22,7 @@ from game.coach.bar import Bar
 from game.coach.belief import Belief, belief_change
 from game.coach.cycle import AdaptiveCycle, InfluenceProcess, LearningProcess
 from game.coach.instructions import Pose, correction
-from game.coach.instructions.notices import WRONG_WAY
+from game.coach.instructions.phrasebook import NoticeName
 from game.coach.lead import Lead
 from game.coach.model import HumanModel
 from game.world.events import (
@@ -40,20 +40,12 @@ from game.world.events import (
 from game.world.geometry import Cell
 from game.world.observation import Guidance, Observation
 
-TOO_LATE = "It is too late for that victim."
-ANOTHER_FIRST = "Another victim comes first now."
-_NOTICES: dict[GoalReason, str] = {
-    "expired": TOO_LATE,
-    "too_late": TOO_LATE,
-    "strayed": ANOTHER_FIRST,
+_NOTICES: dict[GoalReason, NoticeName] = {
+    "expired": "too_late",
+    "too_late": "too_late",
+    "strayed": "another_first",
 }
 """What is said of a goal that is given up before its victim was treated."""
-
-_WHEN_LOST: dict[LostBy, str] = {
-    "standing": "Take this way now.",
-    "wandering": "You are not getting closer.",
-}
-"""What is said to a rescuer who is lost, before the way is told again from there."""
 
 State = TypeVar("State")
 Occasion = Literal["goal", "step", "completed", "misstep", "lost", "time"] | LevelWish
@@ -209,7 +201,7 @@ class Guide(ABC, Generic[State]):
             return records + self._give_up(at_ms, pose, "strayed", better)
         if not self.bar.may_notice:
             return records + self._issue(at_ms, pose, "restated")
-        notice = correction(self.lead.scene, told, pose) or WRONG_WAY
+        notice = correction(self.lead.scene, told, pose) or "wrong_way"
         return records + self._issue(at_ms, pose, "misstep", notice)
 
     def _lost(self, at_ms: int, pose: Pose) -> list[CoachRecord]:
@@ -219,7 +211,7 @@ class Guide(ABC, Generic[State]):
         by = self.bar.lost_by
         records: list[CoachRecord] = [LostNoticed(at_ms, self.bar.shown.number, by)]
         records += self._choose("lost", at_ms, pose)
-        return records + self._issue(at_ms, pose, "lost", _WHEN_LOST[by])
+        return records + self._issue(at_ms, pose, "lost", by)
 
     def _treating(
         self, at_ms: int, pose: Pose, victim: str, observation: Observation
@@ -274,7 +266,7 @@ class Guide(ABC, Generic[State]):
             GoalSet(at_ms, goal, room.name if room else None, self.lead.route, reason)
         ]
         records += self._choose("goal", at_ms, pose)
-        records += self._issue(at_ms, pose, "goal", _NOTICES.get(reason, ""))
+        records += self._issue(at_ms, pose, "goal", _NOTICES.get(reason))
         if goal == self._treated:
             self._meant = goal
             records += self._completed(at_ms, pose)
@@ -284,10 +276,16 @@ class Guide(ABC, Generic[State]):
         return self.choose(occasion, at_ms, pose, self.lead.goal)
 
     def _issue(
-        self, at_ms: int, pose: Pose, reason: IssueReason, notice: str = ""
+        self, at_ms: int, pose: Pose, reason: IssueReason, notice: NoticeName | None = None
     ) -> list[CoachRecord]:
+        words = "" if notice is None else self.briefing.phrases.notices[notice]
+        return [self._put_up(at_ms, pose, reason, words)]
+
+    def _put_up(
+        self, at_ms: int, pose: Pose, reason: IssueReason, notice: str
+    ) -> InstructionIssued:
         lead = self.lead
-        return [self.bar.issue(at_ms, lead.scene, pose, lead.goal, self.level, reason, notice)]
+        return self.bar.issue(at_ms, lead.scene, pose, lead.goal, self.level, reason, notice)
 
     def _completed(self, at_ms: int, pose: Pose) -> list[CoachRecord]:
         return [self.bar.complete(at_ms), *self._choose("completed", at_ms, pose)]
@@ -298,4 +296,4 @@ class Guide(ABC, Generic[State]):
         shown = self.bar.shown
         if shown is None or not self.bar.open or shown.instruction.level is self.level:
             return []
-        return self._issue(at_ms, pose, "level", self.bar.unread_notice(at_ms))
+        return [self._put_up(at_ms, pose, "level", self.bar.unread_notice(at_ms))]

@@ -17,15 +17,13 @@ STRAY_GAIN_MOVES = 5
 """After a misstep another goal is set only if it saves somebody more, or so many moves. Straying by
 less than half of that cannot gain as much, and the route is not planned again."""
 
-ALL_SAFE = "All victims are safe."
-NOBODY_IN_TIME = "No victim can be reached in time."
-
 
 class Lead:
     """The goal is the first victim of the route. All distances are moves; all times mission ms."""
 
     def __init__(self, briefing: Briefing) -> None:
         self._building, self._settings = briefing.building, briefing.settings
+        self._phrases = briefing.phrases
         self._floodfills = self._building.terrain.floodfills
         self._waiting = {site.id: site for site in self._building.victims}
         self._planner = RoutePlanner(
@@ -50,7 +48,8 @@ class Lead:
     @property
     def farewell(self) -> str:
         """What to say when there is nobody left to lead to."""
-        return NOBODY_IN_TIME if self._waiting or self._any_expired else ALL_SAFE
+        late = self._waiting or self._any_expired
+        return self._phrases.notices["nobody_in_time" if late else "all_safe"]
 
     def set_out(
         self, at_ms: int, position: Cell, ms_per_move: int, route: Sequence[str] | None = None
@@ -116,4 +115,4 @@ class Lead:
         return hopeful[:1]
 
     def _scene(self) -> Scene:
-        return Scene(self._building, dict(self._waiting), self._settings)
+        return Scene(self._building, dict(self._waiting), self._settings, self._phrases)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import click
 
@@ -14,7 +14,7 @@ from game.world.building import Building, Room, Severity
 from game.world.drawing import BuildingError
 from game.world.fitness import shortcomings
 from game.world.labels import HALF_BLOCKS, SQUARES
-from game.world.picture import LEGEND, Ink, Row, joined, picture
+from game.world.picture import LEGEND, Ink, Row, joined, picture, small_picture
 
 STATUS_PROBLEMS = 2
 
@@ -48,12 +48,18 @@ def show_building(building: str, seed: int) -> None:
     """Draw BUILDING (a name, generated:SEED or a file) with its rooms, doors, victims and start."""
     loaded = load_building(building, seed)
     coloured = _wants_colour()
-    for row in _panels(loaded):
+    columns, lines = shutil.get_terminal_size() if sys.stdout.isatty() else _PAPER
+    small = loaded.plan.width > columns
+    rooms = sorted(loaded.rooms, key=lambda room: room.name)
+    numbers = {room.name: number for number, room in enumerate(rooms, start=1)}
+    drawn = small_picture(loaded, numbers) if small else _whole_picture(loaded, columns, lines)
+    for row in _panels(drawn, columns):
         click.echo("".join(_painted(row) if coloured else _plain(row)).rstrip())
     click.echo("".join(_painted(LEGEND) if coloured else _plain(LEGEND)))
     click.echo(f"\n{loaded.name}: {counts(loaded)}")
-    for room in sorted(loaded.rooms, key=lambda room: room.name):
-        click.echo(f"  {room.name:<24}{_contents(loaded, room)}")
+    for room in rooms:
+        number = f"{numbers[room.name]:>2} " if small else ""
+        click.echo(f"  {number}{room.name:<24}{_contents(loaded, room)}")
 
 
 @building_group.command("check", short_help="Check a building file.")
@@ -104,15 +110,15 @@ def _top_line(file: str, building: Building) -> int:
     return lines.index("plan:") + 2
 
 
-def _panels(building: Building) -> Iterator[Row]:
-    """The rows of the picture: in squares if they fit the terminal, else in half-blocks.
-
-    A picture wider than the terminal is cut into panels, printed one below the other.
-    """
+def _whole_picture(building: Building, columns: int, lines: int) -> Sequence[Row]:
+    """In squares if they fit the terminal, else in half-blocks."""
     plan = building.plan
-    columns, lines = shutil.get_terminal_size() if sys.stdout.isatty() else _PAPER
     fits = plan.width * SQUARES.columns <= columns and plan.height <= lines
-    rows = picture(building, SQUARES if fits else HALF_BLOCKS)
+    return picture(building, SQUARES if fits else HALF_BLOCKS)
+
+
+def _panels(rows: Sequence[Row], columns: int) -> Iterator[Row]:
+    """The rows; of a picture wider than the terminal, panels one below the other."""
     for left in range(0, len(rows[0]), columns):
         for row in rows:
             yield joined(row[left : left + columns])

@@ -21,8 +21,8 @@ from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED
-from game.world.settings import FREE_PLAY, MissionSettings
-from game.world.variant import Difficulty, Variant, Victims, varied, with_demands
+from game.world.settings import FREE_PLAY, Controls, MissionSettings
+from game.world.variant import Difficulty, Variant, Victims, day_seed, varied, with_demands
 
 DEFAULT_BUILDING = "harbour"
 MINUTE_MS = 60_000
@@ -83,6 +83,12 @@ def mission_options(command: _Command) -> _Command:
             metavar="DIR",
             help="The folder for journals.  [default: data/sessions]",
         ),
+        click.option(
+            "--controls",
+            type=click.Choice(get_args(Controls)),
+            help="What the arrows do: go in four directions (compass), or turn left and right and "
+            "go ahead (turn).  [default: compass]",
+        ),
         click.option("--minutes", type=float, help="How long the mission lasts.  [default: 4]"),
         click.option(
             "--set",
@@ -140,6 +146,7 @@ def play_in_text(options: PlayOptions) -> int:
         typed_lines(),
         sys.stdout,
         memorise_ms=options.memorise_ms,
+        variant=options.variant,
     )
 
 
@@ -156,9 +163,12 @@ def options_of(
     victims: Victims | None = None,
     difficulty: Difficulty = "standard",
     today: bool = False,
+    controls: Controls | None = None,
 ) -> PlayOptions:
     """The mission defined by `mission_options`. Raises AnaError, naming the option."""
     settings = assigned(with_demands(FREE_PLAY, difficulty), assignments)
+    if controls is not None:
+        settings = replace(settings, controls=controls)
     if minutes is not None:
         settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
     if today and seed is not None:
@@ -185,12 +195,8 @@ def options_of(
         log_dir=log or sessions_folder(),
         variant=variant,
         drawn=drawn,
+        onward="same" if today else "seed",
     )
-
-
-def day_seed(now: datetime) -> int:
-    """The seed of the mission of the day: 20261126 on 26 November 2026 (UTC)."""
-    return int(f"{now.astimezone(UTC):%Y%m%d}")
 
 
 def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSettings:

@@ -58,16 +58,35 @@ def study_group() -> None:
 @click.option("--seed", type=int, help="Decides who is allocated what.  [default: random]")
 @click.option("--blocks", type=click.IntRange(1), default=5, show_default=True,
               help="How many blocks of 24 places the study has.")  # fmt: skip
-def make_study(folder: Path, seed: int | None, blocks: int) -> None:
+@click.option("--language", default="en", show_default=True, metavar="CODE",
+              help="The language of everything participants read: en or de.")  # fmt: skip
+def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> None:
     """Create the study folder DIR, with settings and texts to check before you begin."""
     from game.study.folder import ITEMS, SETTINGS, TEXTS, new_study
 
-    new_study(folder, seed, blocks)
+    new_study(folder, seed, blocks, language=language)
     click.echo(
         f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
         f"  ana study check {folder}\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
+
+
+@study_group.command("demo", short_help="Make a study half-way through, to try things on.")
+@_FOLDER
+@click.option("--participants", type=click.IntRange(6, 480), default=48, show_default=True,
+              metavar="N", help="How many simulated people have come.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True,
+              help="Seed for everything.")  # fmt: skip
+def make_demonstration(folder: Path, participants: int, seed: int) -> None:
+    """Make the study DIR with simulated people in it, about half of whose places are taken.
+
+    Try status, export, the analysis and the notebooks on it, and take part in it yourself. It takes
+    about a minute.
+    """
+    from game.commands.ana_study_demo import demonstration
+
+    demonstration(folder, participants, seed)
 
 
 @study_group.command("run", short_help="Let a participant take part here.")

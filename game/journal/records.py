@@ -149,6 +149,8 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     differ from those drawn and usual; the text and the settings hold what came of it.
     `memorised_ms` is how long the map with the rooms' names
     was shown just before, in free play (a study records that as a phase of its own).
+    `instructions_text` is the whole instructions.toml that the coach speaks by, None for the
+    shipped English.
     """
 
     building: str
@@ -162,6 +164,7 @@ class MissionStarted(SessionRecord, frozen=True, tag="mission_started", kw_only=
     assumed: Assumed | None = None
     variant: Variant = USUAL
     memorised_ms: int = 0
+    instructions_text: str | None = None
 
 
 class MissionAbandoned(SessionRecord, frozen=True, tag="mission_abandoned"):

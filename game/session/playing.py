@@ -11,6 +11,8 @@ from typing import Literal
 from msgspec import structs
 
 from game.coach.api import Briefing, Coach
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english, text_to_keep
 from game.coach.presets import Preset, preset
 from game.coach.spec import CoachSpec, assumed_of, build_coach
 from game.journal.clock import Clock, SystemClock, VirtualClock
@@ -115,18 +117,20 @@ def begin_mission(
     spec: CoachSpec,
     seed: int,
     *,
+    phrases: Phrasebook | None = None,
     build: CoachBuilder = build_coach,
     variant: Variant = USUAL,
     memorised_ms: int = 0,
 ) -> MissionRun:
-    """Begin a mission at 0 ms in a journal that is already open.
+    """Begin a mission at 0 ms in a journal that is already open. The coach speaks by `phrases`
+    (None: the shipped English).
 
     Outside a study the records belong to the phase `mission`; in a study, to the journal's phase.
     """
     if journal.phase == "session":
         journal.enter("mission")
-    run = assemble(building, settings, spec, seed, journal.extend, build=build)
-    started = mission_started(building, settings, spec, seed, variant)
+    run = assemble(building, settings, spec, seed, journal.extend, phrases=phrases, build=build)
+    started = mission_started(building, settings, spec, seed, variant, phrases)
     journal.append(structs.replace(started, memorised_ms=memorised_ms))
     run.begin()
     return run
@@ -138,6 +142,7 @@ def mission_started(
     spec: CoachSpec,
     seed: int,
     variant: Variant = USUAL,
+    phrases: Phrasebook | None = None,
 ) -> MissionStarted:
     """The record of everything that determines a mission, except the actions."""
     return MissionStarted(
@@ -151,6 +156,7 @@ def mission_started(
         rules_version=RULES_VERSION,
         assumed=assumed_of(spec),
         variant=variant,
+        instructions_text=text_to_keep(phrases),
     )
 
 
@@ -166,10 +172,11 @@ def assemble(
     seed: int,
     record: Recorder,
     *,
+    phrases: Phrasebook | None = None,
     build: CoachBuilder = build_coach,
 ) -> MissionRun:
     """A mission with its coach, not yet begun; `record` receives everything that happens."""
-    coach = build(spec, Briefing(building, settings, seed))
+    coach = build(spec, Briefing(building, settings, seed, phrases or english()))
     return MissionRun(Mission(building, settings), coach, record)
 
 

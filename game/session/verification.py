@@ -11,6 +11,7 @@ from typing import Any
 
 import msgspec
 
+from game.coach.instructions.phrasebook_file import phrasebook_of
 from game.coach.spec import assumed_of, build_coach
 from game.errors import AnaError
 from game.journal.history import MissionHistory, read_history
@@ -145,9 +146,11 @@ def _replayed(mission: MissionHistory, build: CoachBuilder) -> Difference | None
     again: list[RunRecord] = []
     try:
         building = parse_building(started.building_text, started.building)
+        phrases = phrasebook_of(started.instructions_text)
         run = assemble(
-            building, started.settings, started.coach, started.seed, again.extend, build=build
-        )
+            building, started.settings, started.coach, started.seed, again.extend,
+            phrases=phrases, build=build,
+        )  # fmt: skip
     except (AnaError, ValueError) as error:
         return Difference(mission.line, "mission_started", str(error), "a mission to play")
     refused = _play(run, mission)

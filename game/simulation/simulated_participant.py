@@ -8,6 +8,7 @@ from typing import Literal
 from game.journal.clock import VirtualClock
 from game.journal.records import ROUNDS, Preflighted, Terminal
 from game.rescuers.driver import drive
+from game.rescuers.interpreter import interpreted
 from game.rescuers.person import BoundedPerson, MapMemory, Population, drawn, memorised
 from game.rescuers.person.experience import Experience
 from game.rescuers.person.memory import nothing_memorised
@@ -110,7 +111,8 @@ class SimulatedParticipant:
 
         if task.goals is None:
             self._experiences[self._round] = person.experience
-        drive(run, person, passing=passing, done=lambda: task.done)
+        reader = interpreted(person, self._session.study.phrases, task.building)
+        drive(run, reader, passing=passing, done=lambda: task.done)
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
         right = {check.id: check.right for check in self._session.study.items.check}

@@ -102,9 +102,10 @@ def _journal_of(study: Study, taken: SlotTaken) -> Path:
 
 
 def _end(ledger: Ledger, taken: SlotTaken, journal: bytes) -> None:
-    """Note that a session has ended; whoever left has not ended it."""
-    left = b'"reason":"quit"' in journal.splitlines()[-1]
-    if not left and ending_of(ledger.entries(), taken.participant, "simulated") is None:
+    """Note that a session has ended; whoever left or is in the middle has not ended it."""
+    last = journal.splitlines()[-1]
+    ended = b'"type":"session_ended"' in last and b'"reason":"quit"' not in last
+    if ended and ending_of(ledger.entries(), taken.participant, "simulated") is None:
         ledger.end_session(taken.participant, "simulated", "finished")
 
 

@@ -1,6 +1,6 @@
 """A study's folder: its settings, texts, buildings, ledger and sessions.
 
-DIR/study.toml, texts.toml, items.toml      edited by the lab
+DIR/study.toml, texts.toml, items.toml, instructions.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
 DIR/versions/                               every version of what sessions were made from
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
@@ -20,11 +20,14 @@ from pathlib import Path
 from secrets import randbelow
 from typing import NamedTuple
 
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english, parse_phrasebook
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
+from game.study.languages import ENGLISH, Translation
 from game.study.ledger import (
     Ledger,
     LedgerEntry,
@@ -47,6 +50,8 @@ from game.world.building import Building
 from game.world.fitness import shortcomings
 
 SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
+INSTRUCTIONS = "instructions.toml"
+"""What the instructors say; older folders lack it, and mean the shipped English."""
 VERSIONS = "versions"
 """Copies of everything that sessions were made from."""
 ROSTER = "roster.csv"
@@ -81,6 +86,7 @@ class Study:
     copy: StudyCopy
     texts: Texts
     items: Items
+    phrases: Phrasebook
     buildings: tuple[Building, Building]
     practice: Building
     inputs: Mapping[str, str]
@@ -220,12 +226,15 @@ def new_study(
     preset: str = DEFAULT_PRESET,
     coach: str = ADAPTIVE,
     now: Callable[[], str] = utc_now,
+    language: str = ENGLISH,
 ) -> None:
     """Create a study folder with the default settings and texts, for the lab to edit.
 
-    `coach` is the adaptive instructor and `preset` how it adapts; `now` gives the time of creation.
-    Raises StudyError if the folder is not empty or cannot be created.
+    `language` is that of everything participants read; `coach` is the adaptive instructor and
+    `preset` how it adapts; `now` gives the time of creation. Raises StudyError if the folder is not
+    empty or cannot be created, AnaError for a language that there is not.
     """
+    translation = None if language == ENGLISH else Translation(language)
     seed = randbelow(_MOST_SEED) if seed is None else seed
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise StudyError("the folder is not empty", place=str(folder), hint="Choose a new folder")
@@ -236,16 +245,25 @@ def new_study(
             text = template.joinpath(name).read_text(encoding="utf-8")
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
-                text = text.format(seed=seed, blocks=blocks, **chosen, **_BUILDINGS)
-            path = folder / name
-            path.touch(mode=0o600)
-            path.write_text(text, encoding="utf-8")
+                ending = ".txt" if translation else ""
+                names = {role: name + ending for role, name in _BUILDINGS.items()}
+                text = text.format(seed=seed, blocks=blocks, **chosen, **names)
+            _write_new(folder / name, text)
+        _write_new(folder / INSTRUCTIONS, english().text)
+        if translation is not None:
+            for name, text in translation.files(_BUILDINGS.values()).items():
+                _write_new(folder / name, text)
     except OSError as error:
         raise StudyError(
             f"the folder cannot be created ({error.strerror})", place=str(folder)
         ) from error
     _, digest = read_settings(folder / SETTINGS)
     Ledger(folder / LEDGER, now).create(seed, blocks, digest)
+
+
+def _write_new(path: Path, text: str) -> None:
+    path.touch(mode=0o600)
+    path.write_text(text, encoding="utf-8")
 
 
 def open_study(folder: Path) -> Study:
@@ -258,6 +276,7 @@ def open_study(folder: Path) -> Study:
     entries = Ledger(folder / LEDGER).entries()
     _same_as_created(settings, entries, path)
     texts, items = read_texts(folder / TEXTS), read_items(folder / ITEMS)
+    phrases = read_phrasebook(folder / INSTRUCTIONS)
     first, second = (_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(
@@ -266,12 +285,14 @@ def open_study(folder: Path) -> Study:
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=texts,
         items=items,
+        phrases=phrases,
         buildings=(first, second),
         practice=practice,
         inputs={
             SETTINGS: digest,
             TEXTS: _digest(folder / TEXTS),
             ITEMS: _digest(folder / ITEMS),
+            **_digest_if_there(folder / INSTRUCTIONS),
             **{name_of(building): building.hash for building in (first, second, practice)},
         },
     )
@@ -304,6 +325,24 @@ def name_of(building: Building) -> str:
 def kept_copy(folder: Path, name: str, digest: str) -> Path:
     """Where the copy of an input with this SHA-256 lies in a study's folder, once it was kept."""
     return folder / VERSIONS / f"{Path(name).stem}-{digest[:12]}{Path(name).suffix or '.txt'}"
+
+
+def read_phrasebook(path: Path) -> Phrasebook:
+    """The sentences in `path`; the shipped English where there is no such file. Raises
+    PhrasebookError, naming the line, or StudyError where the file cannot be read."""
+    try:
+        return parse_phrasebook(path.read_text(encoding="utf-8-sig"), str(path))
+    except FileNotFoundError:
+        return english()
+    except OSError as error:
+        message = f"the instructions cannot be read ({error.strerror})"
+        raise StudyError(message, place=str(path)) from error
+    except UnicodeDecodeError as error:
+        raise StudyError("the file is not UTF-8 text", place=str(path)) from error
+
+
+def _digest_if_there(path: Path) -> dict[str, str]:
+    return {path.name: _digest(path)} if path.exists() else {}
 
 
 def _digest(path: Path) -> str:

@@ -16,7 +16,6 @@ from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
-from game.study.look import CellSize, Look
 from game.world.settings import MissionSettings
 
 PrimaryOutcome = Literal[
@@ -45,14 +44,12 @@ class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 
 class ScreenSize(_Section, frozen=True):
-    """The fixed size, in terminal cells, of the game view and the memorise map, and how the mission
-    looks: `cells` are 2 x 1 (normal) or 4 x 2 (large) of the terminal's; a study made before there
-    were looks has the first."""
+    """The fixed size, in terminal cells, of the game view and the memorise map, and the look of the
+    mission; a study made before there were looks has the first."""
 
     columns: int = 120
     rows: int = 40
-    cells: CellSize = "normal"
-    look: Look = 1
+    look: Literal[1, 2] = 1
 
     def __post_init__(self) -> None:
         _within("screen.columns", self.columns, 80, 400)

@@ -12,6 +12,7 @@ import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.mission_words import MissionWords
 from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
@@ -20,7 +21,7 @@ LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browse
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
     "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
-    "clock_stopped", "mission_goes_on", "leave_now",
+    "clock_stopped", "mission_goes_on", "leave_now", "mission",
 )  # fmt: skip
 """Small words that they lack."""
 
@@ -173,6 +174,7 @@ class ScreenWords(_Part, frozen=True):
     size_fine: str
     press_keys: str
     keys_fine: str
+    mission: MissionWords
     busy: Page
     trouble: Page
     fault: str
@@ -346,7 +348,7 @@ def _shipped_tree() -> dict[str, Any]:
     return tomllib.loads(shipped.read_text(encoding="utf-8"))
 
 
-def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[str, str]) -> _Read:
+def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[str, Any]) -> _Read:
     try:
         tree = otherwise | tomllib.loads(path.read_text(encoding="utf-8-sig"))
         if isinstance(tree.get("words"), dict):

@@ -5,9 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from unicodedata import east_asian_width
 
 from game.world.building import Room
 from game.world.geometry import Cell
+
+FILLER = "\0"
+"""Stands after a character that takes two columns, so that a text is as long as it is wide."""
+
+
+def is_wide(character: str) -> bool:
+    """Whether it takes two columns, as Chinese, Japanese and Korean ones do."""
+    return east_asian_width(character) in "WF"
+
+
+def spread(text: str) -> str:
+    """The text with a filler after each wide character."""
+    if text.isascii():
+        return text
+    return "".join(it + FILLER if is_wide(it) else it for it in text)
 
 
 @dataclass(frozen=True)
@@ -25,11 +41,17 @@ SQUARES = MapScale(columns=2, cells=1)
 
 @dataclass(frozen=True)
 class LabelLine:
-    """A piece of a name, from terminal column `column` of map row `row` (both from 0)."""
+    """A piece of a name, spread, from terminal column `column` of map row `row` (both from 0)."""
 
     column: int
     row: int
     text: str
+
+    @property
+    def letters(self) -> Iterator[tuple[int, str]]:
+        """Each column with what is drawn there: nothing in the second column of a wide one."""
+        for column, letter in enumerate(self.text, start=self.column):
+            yield column, "" if letter == FILLER else letter
 
 
 def fit_label(room: Room, scale: MapScale = HALF_BLOCKS) -> tuple[LabelLine, ...]:
@@ -49,7 +71,7 @@ def label_lines(
     count = len(cells)
     centre = scale.columns * (2 * sum(x for x, _ in cells) + count)
     middle = 2 * sum(y for _, y in cells) + count
-    for texts in _wrappings(name.split()):
+    for texts in _wrappings(spread(name).split()):
 
         def offset(axis: int, top: int, lines: int = len(texts)) -> int:
             off_middle = abs((2 * top + lines) * scale.cells * count - middle)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from random import Random
 from typing import Literal, NamedTuple
 
@@ -46,6 +47,11 @@ class Variant:
 
 
 USUAL = Variant()
+
+
+def day_seed(now: datetime) -> int:
+    """The seed of the mission of the day: 20261126 on 26 November 2026 (UTC)."""
+    return int(f"{now.astimezone(UTC):%Y%m%d}")
 
 
 def varied(building: Building, variant: Variant, seed: int) -> Building:

@@ -16,7 +16,9 @@ import click
 from tests.bench.coach import coach_costs, coached_keys, mission_s, office_ms, route_p99_ms
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paints_ms, key_costs
 from tests.bench.simulation import missions_a_second, simulation_rates
-from tests.bench.ssh import PARTICIPANTS, at_once
+from tests.bench.ssh import at_once
+from tests.bench.together import PARTICIPANTS
+from tests.bench.web import in_browsers
 from tests.study.server import SSH, SSHD
 
 BUILDINGS = ("harbour", "foundry")
@@ -135,6 +137,16 @@ def ssh() -> Iterator[Figure]:
     yield Figure("memory a participant, PSS", ours.pss_mb, "MB", 40)
 
 
+def web() -> Iterator[Figure]:
+    """Participants at once in the mission of a study, 8 keys a second each at pace 20, over the
+    websockets of `ana study serve`; the floor is the same on bare terminals."""
+    bare, ours = in_browsers(WALK, ignored_rows=CLOCK_ROWS)
+    yield Figure(f"{PARTICIPANTS} in browsers, keys answered", ours.answered, f"of {ours.pressed}")
+    yield Figure("key to painted, p50", ours.p50_ms, "ms", floor=bare.p50_ms)
+    yield Figure("key to painted, p95", ours.p95_ms, "ms", 1.5, bare.p95_ms)
+    yield Figure("memory a participant, PSS", ours.pss_mb, "MB", 40)
+
+
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "keys": keys,
     "opening": opening,
@@ -142,6 +154,7 @@ PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "generating": generating,
     "simulating": simulating,
     "ssh": ssh,
+    "web": web,
 }
 
 

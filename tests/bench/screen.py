@@ -11,7 +11,7 @@ from statistics import median, quantiles
 
 import pyte
 
-from tests.terminal import Terminal
+from tests.terminal import Shown, Terminal
 
 COLUMNS, ROWS = 120, 40
 SETTLE_S = 0.4
@@ -100,7 +100,7 @@ def _settle(terminal: Terminal) -> None:
 
 
 def answers(
-    terminal: Terminal, pressed: Sequence[float], before: int, ignored: frozenset[int]
+    terminal: Shown, pressed: Sequence[float], before: int, ignored: frozenset[int]
 ) -> tuple[list[float], int]:
     """For each key that changed a cell, the time to the chunk that changed the last one."""
     screen = pyte.Screen(COLUMNS, ROWS)

@@ -11,7 +11,7 @@ from tests.coach.scripted import ADAPTIVE, PRACTICE, Game, N, W
 
 
 def test_a_coach_is_built_from_the_mission_alone() -> None:
-    assert [field.name for field in fields(Briefing)] == ["building", "settings", "seed"]
+    assert [field.name for field in fields(Briefing)] == ["building", "settings", "seed", "phrases"]
     assert list(signature(build_coach).parameters) == ["spec", "briefing"]
 
 

@@ -55,6 +55,7 @@ def straight(
         shown_level=Level.C1,
         goal="v01",
         tuples=(),
+        sentences=(),
         text="",
         start=Pose(path[0], start),
         end=Pose(path[-1], end),

@@ -10,12 +10,15 @@ from game.coach.acts import (
     NothingLeft,
     PosteriorEvaluated,
 )
-from game.coach.guide import TOO_LATE
-from game.coach.lead import ALL_SAFE, NOBODY_IN_TIME
+from game.coach.instructions.phrasebook_file import english
 from game.world.events import Expired, TreatmentStarted
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings
 from tests.coach.scripted import ADAPTIVE, BOX, PACE, STATIC, E, Game, N, S, T, W, only, settle
+
+ALL_SAFE = english().notices["all_safe"]
+TOO_LATE = english().notices["too_late"]
+NOBODY_IN_TIME = english().notices["nobody_in_time"]
 
 
 def test_when_all_are_rescued_the_bar_says_so_and_the_coach_rests() -> None:

@@ -15,8 +15,7 @@ from game.coach.acts import (
     Misstep,
 )
 from game.coach.compliance import HEEDED_CELLS, NOTICE_MS, NOTICE_MS_PER_LETTER
-from game.coach.guide import ANOTHER_FIRST
-from game.coach.instructions.notices import WRONG_WAY
+from game.coach.instructions.phrasebook_file import english
 from game.coach.lead import GOAL_MS
 from game.rescuers.literal import LiteralReader
 from game.world.events import TreatmentStarted
@@ -38,6 +37,9 @@ from tests.coach.scripted import (
     only,
     settle,
 )
+
+WRONG_WAY = english().notices["wrong_way"]
+ANOTHER_FIRST = english().notices["another_first"]
 
 TO_READ_MS = 7_000
 """Long enough to read anything on the bar, and not so long as to be lost."""

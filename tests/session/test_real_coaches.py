@@ -7,6 +7,7 @@ from typing import get_args
 import pytest
 
 from game.coach.acts import CoachRecord, Level
+from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.presets import PRESETS
 from game.coach.spec import CoachSpec
 from game.journal.clock import VirtualClock
@@ -30,7 +31,11 @@ SPECS = (
 
 
 def wandered(
-    spec: CoachSpec, controls: Controls, seconds: int, building: str
+    spec: CoachSpec,
+    controls: Controls,
+    seconds: int,
+    building: str,
+    phrases: Phrasebook | None = None,
 ) -> tuple[bytes, list[tuple[int, Observation]]]:
     """The journal of an aimless walk, and what was seen at some moments of it."""
     random = Random(f"{spec} {controls}")
@@ -40,7 +45,9 @@ def wandered(
     sink, clock = MemorySink(), VirtualClock()
     journal = Journal(sink, clock)
     journal.append(opening(settings))
-    run = begin_mission(journal, library.load_building(building), settings, spec, 3)
+    run = begin_mission(
+        journal, library.load_building(building), settings, spec, 3, phrases=phrases
+    )
     actions: Sequence[Action] = COMPASS if controls == "compass" else TURN
     seen = []
     action = random.choice(actions)

@@ -106,7 +106,7 @@ def test_afterwards_a_change_needs_an_amendment(study: Study) -> None:
         study.ledger.agree(study.inputs)
 
 
-@pytest.mark.parametrize("name", ["texts.toml", "items.toml", "mine.txt"])
+@pytest.mark.parametrize("name", ["texts.toml", "items.toml", "instructions.toml", "mine.txt"])
 def test_texts_items_and_buildings_are_frozen_too(study: Study, name: str) -> None:
     text = study.buildings[0].text.replace("Foundry Court", "My Own House")
     (study.folder / "mine.txt").write_text(text)
@@ -115,12 +115,13 @@ def test_texts_items_and_buildings_are_frozen_too(study: Study, name: str) -> No
     study.freeze()
     study.ledger.allocate("P02", "live")
     kept = {path.name for path in (study.folder / "versions").iterdir()}
-    assert len(kept) == len(study.inputs) == 6
+    assert len(kept) == len(study.inputs) == 7
     path = study.folder / name
     changed = path.read_text()
     before, after = {
         "texts.toml": ("Thank you", "Thanks"),
         "items.toml": ("engagement", "engagement_2"),
+        "instructions.toml": ("Stop.", "Stand still."),
         "mine.txt": ("facing north", "facing south"),
     }[name]
     path.write_text(changed.replace(before, after, 1))

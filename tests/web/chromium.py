@@ -54,7 +54,7 @@ class Tab(Shown):
         page.on("dialog", self._note_dialog)
 
     def _note_console(self, message: Any) -> None:
-        if message.type in ("error", "warning"):
+        if message.type == "error":
             self.complaints.append(message.text)
 
     def _note_line(self, socket: WebSocket) -> None:

@@ -247,3 +247,23 @@ def test_a_server_that_is_killed_and_started_again_goes_on_where_it_was(
     kinds = [type(entry.record) for entry in journal_of(study, identity).entries]
     assert kinds.count(Resumed) == 2
     tab.close()
+
+
+@pytest.mark.slow
+def test_twenty_people_at_once(tmp_path: Path, chromium: Chromium) -> None:
+    study = small_study(tmp_path / "study")
+    with Served(study) as server:
+        tabs = [chromium.tab() for _ in range(20)]
+        for number, tab in enumerate(tabs):
+            tab.open(server.link(f"P{number:02}"))
+        for tab in tabs:
+            tab.wait_for(READY, 120)
+        assert len(server.programs()) == 20
+        for tab in tabs:
+            tab.press("up", "down", "left", "right", "space")
+        for tab in tabs:
+            tab.wait_for("All keys work", 60)
+            assert tab.notice() == ""
+            assert tab.complaints == []
+            tab.close()
+    assert server.programs() == []

@@ -1,5 +1,6 @@
 """The buildings that come with the game, and the commands that show and check buildings."""
 
+import re
 from collections import Counter
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -18,7 +19,7 @@ from game.world.fitness import shortcomings
 from game.world.floodfill import Floodfills
 from game.world.labels import HALF_BLOCKS, SQUARES
 from game.world.library import shipped_buildings
-from game.world.picture import Ink, joined, picture
+from game.world.picture import Ink, joined, picture, small_picture
 from game.world.reading import parse_building
 from game.world.regions import reachable
 from game.world.route import RoutePlanner
@@ -145,7 +146,7 @@ class TestPicture:
         assert {len(row) for row in rows} == {2 * building.plan.width}
         assert all(any(room.name in row for row in rows) for room in building.rooms)
         drawn = Counter("".join(rows))
-        assert drawn["◆"] + drawn["●"] == len(building.victims)
+        assert drawn["●"] + drawn["○"] == len(building.victims)
         assert drawn["▒"] == 2 * sum(len(door.cells) for door in building.doors)
 
     def test_half_blocks_show_two_cells_per_character(self) -> None:
@@ -158,6 +159,17 @@ class TestPicture:
             "▀",
             Ink.WALL,
             Ink.FLOOR,
+        )
+
+    def test_four_cells_a_character_number_the_rooms(self) -> None:
+        building = load_building("harbour")
+        numbers = {room.name: number for number, room in enumerate(building.rooms, start=1)}
+        rows = ["".join(stroke.text for stroke in row) for row in small_picture(building, numbers)]
+        assert (len(rows[0]), len(rows)) == (48, 26)
+        drawn = Counter("".join(rows))
+        assert (drawn["●"], drawn["○"]) == (7, 13)
+        assert Counter("".join(re.findall(r"\d", "".join(rows)))) == Counter(
+            "".join(map(str, numbers.values()))
         )
 
     def test_joining_keeps_the_text(self) -> None:

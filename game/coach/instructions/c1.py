@@ -7,15 +7,11 @@ from itertools import islice
 from game.coach.acts import Level
 from game.coach.instructions.legs import Leg, legs, treats
 from game.coach.instructions.scene import Instruction, Pose, Scene
-from game.coach.instructions.text import render
-from game.coach.instructions.vocabulary import Tuple, Tuples
+from game.coach.instructions.vocabulary import MOST_STEPS, Tuple, Tuples
 from game.world.geometry import Cell
 
 MOST_LEGS = 3
 """How many straight runs one instruction holds."""
-
-MOST_STEPS = 12
-"""How many steps a person is asked to count in one go."""
 
 TURNS: tuple[Tuples, ...] = ((), (("Turn", "Right"),), (("Turn", "Around"),), (("Turn", "Left"),))
 """How to say a turn of so many quarters to the right."""
@@ -55,12 +51,14 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction:
     arrived = treats(scene, pose, goal)
     if arrived:
         tuples += [UTILIZE] if tuples else [STOP, UTILIZE]
+    sentences = scene.phrases.each(Level.C1, tuple(tuples))
     return Instruction(
         level=Level.C1,
         shown_level=Level.C1,
         goal=goal,
         tuples=tuple(tuples),
-        text=render(Level.C1, tuple(tuples)),
+        sentences=sentences,
+        text=scene.phrases.joined(sentences),
         start=start,
         end=pose,
         path=tuple(path),

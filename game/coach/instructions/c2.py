@@ -8,7 +8,6 @@ from __future__ import annotations
 from game.coach.acts import Level
 from game.coach.instructions.legs import legs
 from game.coach.instructions.scene import Instruction, Pose, Scene
-from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import Tuple
 from game.coach.instructions.ways import MOST_DETOUR, ways_in
 from game.world.geometry import Cell
@@ -43,12 +42,14 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction | None:
         path += onward
     if not tuples:
         return None
+    sentences = scene.phrases.each(Level.C2, tuple(tuples))
     return Instruction(
         level=Level.C2,
         shown_level=Level.C2,
         goal=goal,
         tuples=tuple(tuples),
-        text=render(Level.C2, tuple(tuples)),
+        sentences=sentences,
+        text=scene.phrases.joined(sentences),
         start=start,
         end=pose,
         path=tuple(path),

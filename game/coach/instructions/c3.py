@@ -5,7 +5,6 @@ from __future__ import annotations
 from game.coach.acts import Level
 from game.coach.instructions.legs import legs
 from game.coach.instructions.scene import Instruction, Pose, Scene
-from game.coach.instructions.text import render
 from game.coach.instructions.vocabulary import VICTIM_AT_C3, Tuple
 
 
@@ -26,12 +25,14 @@ def compose(scene: Scene, start: Pose, goal: str) -> Instruction | None:
         for other in scene.waiting.values()
         if other.severity is site.severity and scene.building.room_of(other) is room
     )
+    sentences = scene.phrases.each(Level.C3, tuples)
     return Instruction(
         level=Level.C3,
         shown_level=Level.C3,
         goal=goal,
         tuples=tuples,
-        text=render(Level.C3, tuples),
+        sentences=sentences,
+        text=scene.phrases.joined(sentences),
         start=start,
         end=end,
         path=tuple(path),

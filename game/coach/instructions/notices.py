@@ -6,17 +6,14 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from game.coach.acts import Level
+from game.coach.instructions.phrasebook import NoticeName
 from game.coach.instructions.scene import Instruction, Pose, Scene
 from game.world.geometry import Cell, Heading
 from game.world.plan import Plan
 
-PASSED_DOOR = "You have passed the door."
-TOO_FAR = "You have gone too far."
-WRONG_WAY = "That is the wrong way."
 
-
-def correction(scene: Scene, instruction: Instruction, pose: Pose) -> str:
-    """What went wrong since `instruction` was given, as far as `pose` shows it; empty where it
+def correction(scene: Scene, instruction: Instruction, pose: Pose) -> NoticeName | None:
+    """What went wrong since `instruction` was given, as far as `pose` shows it; None where it
     shows nothing.
 
     Somebody who was told the way (C1, C2) and stands straight beyond the end of one of its legs has
@@ -25,7 +22,7 @@ def correction(scene: Scene, instruction: Instruction, pose: Pose) -> str:
     """
     path = instruction.path
     if pose.cell in path:
-        return ""
+        return None
     plan = scene.building.plan
     distances = scene.descent(pose, instruction.goal)
     here = distances[plan.index(pose.cell)]
@@ -35,8 +32,9 @@ def correction(scene: Scene, instruction: Instruction, pose: Pose) -> str:
             plan, path[at], heading, pose.cell
         ):
             counts_doors = instruction.shown_level is Level.C2
-            return PASSED_DOOR if counts_doors and _begins_with_door(plan, path[at:]) else TOO_FAR
-    return WRONG_WAY if here > distances[plan.index(path[0])] else ""
+            passed_door = counts_doors and _begins_with_door(plan, path[at:])
+            return "passed_door" if passed_door else "too_far"
+    return "wrong_way" if here > distances[plan.index(path[0])] else None
 
 
 def _leg_ends(path: tuple[Cell, ...]) -> Iterator[tuple[int, Heading]]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
 from game.coach.acts import Level
+from game.coach.instructions.phrasebook import Phrasebook
+from game.coach.instructions.phrasebook_file import english
 from game.coach.instructions.vocabulary import Tuples
 from game.world.building import Building, Room, VictimSite
 from game.world.floodfill import UNREACHABLE, Floodfill, Floodfills
@@ -24,11 +26,13 @@ class Pose(NamedTuple):
 
 @dataclass(frozen=True)
 class Scene:
-    """The mission as the coach sees it now: `waiting` holds the waiting victims by id."""
+    """The mission as the coach sees it now, with the `phrases` to speak of it; `waiting` holds the
+    waiting victims by id."""
 
     building: Building
     waiting: Mapping[str, VictimSite]
     settings: MissionSettings
+    phrases: Phrasebook = field(default_factory=english)
 
     @property
     def floodfills(self) -> Floodfills:
@@ -66,16 +70,18 @@ class Instruction:
     """What the coach says to lead the rescuer towards one victim.
 
     `level` is the level asked for and `shown_level` that of the words: lower where `fallback` is
-    true. `tuples` are (action, object) pairs of the shown level and `text` is rendered from them
-    alone. Carrying them out from `start` leads over `path` (from the start's cell to the end's) to
-    `end`, and where `treats` is true begins a treatment there: of the goal at C1 and C2; at C3,
-    whose words tell victims apart only by room and colour, of any victim in `accepts`.
+    true. `tuples` are (action, object) pairs of the shown level; `sentences` say one each, and
+    `text` is all of them. Carrying them out from `start` leads over `path` (from the start's cell
+    to the end's) to `end`, and where `treats` is true begins a treatment there: of the goal at C1
+    and C2; at C3, whose words tell victims apart only by room and colour, of any victim in
+    `accepts`.
     """
 
     level: Level
     shown_level: Level
     goal: str
     tuples: Tuples
+    sentences: tuple[str, ...]
     text: str
     start: Pose
     end: Pose

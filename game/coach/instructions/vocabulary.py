@@ -42,9 +42,9 @@ THINGS: dict[Level, frozenset[str]] = {
 VICTIM_AT_C2 = {Severity.RED: "redvictim", Severity.BLUE: "BlueVictim"}
 VICTIM_AT_C3 = {Severity.RED: "RedVictim", Severity.BLUE: "BlueVictim"}
 
-_ORDINALS = "first second third fourth fifth sixth seventh eighth ninth tenth"
-ORDINALS = tuple(_ORDINALS.split())
-MOST_COUNTED = len(ORDINALS)
+MOST_STEPS = 12
+"""How many steps a person is asked to count in one go."""
+MOST_COUNTED = 10
 """The highest number of doors or intersections that a person is asked to count."""
 
 

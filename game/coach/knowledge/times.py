@@ -15,7 +15,7 @@ from typing import NamedTuple
 from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene, instruct
 from game.coach.instructions.course import MOST_INSTRUCTIONS
-from game.coach.instructions.text import render
+from game.coach.instructions.reading import words
 from game.coach.knowledge.assumed import Assumed
 
 LED = (Level.C1, Level.C2)
@@ -196,12 +196,12 @@ class LegTimes:
 
 def first_words(instruction: Instruction, notice: str, *, turns_need_a_key: bool) -> int:
     """How many words are read before the first key: as far as the first sentence that needs one."""
-    words = len(notice.split())
-    for (action, _), more in zip(instruction.tuples, _words(instruction), strict=True):
-        words += more
+    read = words(notice)
+    for (action, _), sentence in zip(instruction.tuples, instruction.sentences, strict=True):
+        read += words(sentence)
         if action != "Turn" or turns_need_a_key:
             break
-    return words
+    return read
 
 
 def _part(instruction: Instruction) -> _Part:
@@ -210,19 +210,13 @@ def _part(instruction: Instruction) -> _Part:
     steps = (len(instruction.path) - 1) / max(1, sum(walks))
     counts = instruction.shown_level is Level.C2
     sentences = tuple(
-        _Sentence(words, steps * walking, action == "Turn", _number(thing) if counts else 0)
-        for (action, thing), words, walking in zip(
-            instruction.tuples, _words(instruction), walks, strict=True
+        _Sentence(words(it), steps * walking, action == "Turn", _number(thing) if counts else 0)
+        for (action, thing), it, walking in zip(
+            instruction.tuples, instruction.sentences, walks, strict=True
         )
     )
     end = None if instruction.treats else instruction.end
     return _Part(sentences, instruction.shown_level, end)
-
-
-def _words(instruction: Instruction) -> list[int]:
-    """The number of words in the sentence of each tuple."""
-    level = instruction.shown_level
-    return [len(render(level, (said,)).split()) for said in instruction.tuples]
 
 
 def _number(thing: str) -> int:

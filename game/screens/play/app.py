@@ -12,12 +12,15 @@ import sys
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, ClassVar
+from random import randrange
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from textual import events
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
 from textual.geometry import Size
 from textual.screen import Screen
 from textual.widgets import Static
@@ -32,17 +35,19 @@ from game.screens.widgets.preferences import (
     save_preferences,
 )
 from game.screens.widgets.program import Program
-from game.screens.widgets.signals import lead_out
+from game.screens.widgets.signals import has_job_control, lead_out, suspend_group
 from game.screens.widgets.theme import theme_name
 from game.world import load_building
 from game.world.building import Building
+from game.world.library import GENERATED
 from game.world.settings import FREE_PLAY, MissionSettings
-from game.world.variant import USUAL, Variant, varied
+from game.world.variant import USUAL, Difficulty, Variant, day_seed, varied, with_demands
 
 if TYPE_CHECKING:
     from game.coach.spec import CoachSpec
     from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
+    from game.screens.play.journal_list import Chosen
     from game.screens.play.lesson_screen import LessonOver
     from game.screens.play.live import LiveMission
     from game.screens.play.map_screen import MapScreen
@@ -52,6 +57,10 @@ if TYPE_CHECKING:
     from game.screens.play.start_screen import StartScreen
     from game.screens.play.watch_screen import WatchScreen
     from game.session.replay import Replay
+
+
+NEW_SEEDS = 100_000
+"""Seeds chosen at home are below this, so that they can be typed again."""
 
 
 @dataclass(frozen=True)
@@ -72,19 +81,37 @@ class PlayOptions:
     """For how long the map is shown first, to a person."""
     now: bool = False
     """Whether the clock starts at once, without the page before the mission."""
+    onward: Literal["seed", "office", "same"] = "seed"
+    """What changes from one mission to the next: the seed, with it the whole office, or nothing,
+    as in the mission of the day."""
+
+    @property
+    def about(self) -> str:
+        """What sets this mission apart, in a few words."""
+        told = self.variant.of_seed(self.seed)
+        if self.onward == "same":
+            return ", ".join(filter(None, (f"Mission of the day {self.seed}", told)))
+        if self.onward == "office" and self.variant.victims == "drawn":
+            return ", ".join(filter(None, (f"Seed {self.seed}", told)))
+        return told
 
     def again(self) -> PlayOptions:
         """The next mission: the next seed, and what follows from it; the map is known by now."""
-        seed = self.seed + 1
-        building = self.building
-        if self.drawn is not None:
-            building = varied(self.drawn, self.variant, seed)
-        return replace(self, seed=seed, building=building, memorise_ms=0, now=False)
+        if self.onward == "same":
+            return replace(self, memorise_ms=0, now=False)
+        seed, drawn = self.seed + 1, self.drawn
+        if self.onward == "office":
+            drawn = load_building(f"{GENERATED}:{seed}")
+        building = self.building if drawn is None else varied(drawn, self.variant, seed)
+        return replace(self, seed=seed, building=building, drawn=drawn, memorise_ms=0, now=False)
 
 
 class AnaApp(Program, inherit_bindings=False):
     """Every screen in one program; `first` makes the one it begins with."""
 
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+z", "stand_aside", id="app.suspend", priority=True),
+    ]
     CSS_PATH: ClassVar[list[str | PurePath]] = [
         "../widgets/styles/base.tcss",
         "../widgets/styles/mission.tcss",
@@ -137,6 +164,22 @@ class AnaApp(Program, inherit_bindings=False):
         self.failure = message.error
         self.exit(return_code=2)
 
+    def action_stand_aside(self) -> None:
+        """Stop the clock, and give the terminal back to the shell that started the game."""
+        from game.screens.play.map_screen import MapScreen
+        from game.screens.play.mission_screen import LiveScreen
+        from game.screens.widgets.dialogs import Notice
+
+        screen = self.screen
+        if isinstance(screen, LiveScreen):
+            if not screen.live.settings.allow_pause:
+                return
+            screen.action_pause()
+        elif isinstance(screen, MapScreen):
+            self.push_screen(Notice("Paused", "The time for the map stands still.", key="Resume"))
+        if has_job_control():
+            self.call_after_refresh(suspend_group)
+
     # --- the window -----------------------------------------------------------------------------
 
     def on_resize(self, event: events.Resize) -> None:
@@ -167,14 +210,16 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.home import HomeScreen
 
         self._been_home = True
-        self._replace(HomeScreen(self.preferences))
+        self._replace(HomeScreen(self.preferences, self._log_dir(), self._rules_of))
 
     def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
         home = message.sender
         self._remember(home.preferences)
         match message.what:
             case "play":
-                self.offer_mission(self._chosen())
+                self.offer_mission(self._chosen(home.seed))
+            case "today":
+                self.offer_mission(self._todays())
             case "tutorial":
                 self.teach()
             case "watch":
@@ -194,7 +239,7 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.past_missions import newest_journals
 
         journals = newest_journals(self._log_dir())
-        self.push_screen(JournalsScreen(journals), self._replay_chosen)
+        self.push_screen(JournalsScreen(journals), self._journal_chosen)
 
     def _show_howto(self) -> None:
         from game.screens.widgets.howto import HowToScreen
@@ -214,20 +259,43 @@ class AnaApp(Program, inherit_bindings=False):
         self._remember(self.preferences.replaced(ground=ground))
         self.theme = theme_name(os.environ, self.preferences.ground)
 
-    def _chosen(self) -> PlayOptions:
+    def _rules_of(self, difficulty: Difficulty) -> MissionSettings:
+        """The rules of a difficulty; those of the command line where it is theirs."""
+        options = self._options
+        if options is not None and options.variant.difficulty == difficulty:
+            return options.settings
+        return with_demands(FREE_PLAY, difficulty)
+
+    def _chosen(self, typed: str = "") -> PlayOptions:
+        """The mission chosen at home, by the seed that was typed or a new one."""
+        chosen = self.preferences
+        seed = int(typed) if typed else randrange(1, NEW_SEEDS)
+        name = f"{GENERATED}:{seed}" if chosen.building == GENERATED else chosen.building
+        drawn = load_building(name, seed)
+        variant = Variant(chosen.victims, chosen.difficulty)
+        return PlayOptions(
+            varied(drawn, variant, seed),
+            self._coach(),
+            self._rules_of(chosen.difficulty),
+            seed,
+            self._log_dir(),
+            variant=variant,
+            drawn=drawn,
+            memorise_ms=1000 * chosen.memorise,
+            onward="office" if chosen.building == GENERATED else "seed",
+        )
+
+    def _todays(self) -> PlayOptions:
+        """The mission of the day, with the coach chosen at home."""
+        seed = day_seed(datetime.now(UTC))
+        building, rules = load_building(f"{GENERATED}:{seed}"), self._rules_of("standard")
+        return PlayOptions(building, self._coach(), rules, seed, self._log_dir(), onward="same")
+
+    def _coach(self) -> CoachSpec:
         from game.coach.spec import parse_coach
 
         kind, _, level = self.preferences.coach.partition("-")
-        seed = int.from_bytes(os.urandom(4))
-        settings = self._options.settings if self._options else FREE_PLAY
-        return PlayOptions(
-            load_building(self.preferences.building),
-            parse_coach(kind, int(level) if level else None),
-            settings,
-            seed,
-            self._log_dir(),
-            memorise_ms=1000 * self.preferences.memorise,
-        )
+        return parse_coach(kind, int(level) if level else None)
 
     # --- the tutorial ---------------------------------------------------------------------------
 
@@ -295,7 +363,9 @@ class AnaApp(Program, inherit_bindings=False):
         if options.now:
             begin()
         else:
-            self._replace(StartScreen(options.building, options.settings, options.spec, begin))
+            self._replace(
+                StartScreen(options.building, options.settings, options.spec, begin, options.about)
+            )
 
     def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
         if message.what == "start":
@@ -365,28 +435,34 @@ class AnaApp(Program, inherit_bindings=False):
         return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
 
     def on_finished(self, message: Finished) -> None:
+        self.live = None
+        self.show_result(message.journal, always=message.complete)
+
+    def show_result(self, journal: Path, *, always: bool = True) -> None:
+        """The result page of a journal's first mission; unless `always`, only where something was
+        done in it."""
         from game.journal.reader import read_journal
         from game.screens.play.mission_story import tell
         from game.screens.play.result import ResultScreen
         from game.session.replay import Replay
 
-        self.live = None
         try:
-            replay = Replay(read_journal(message.journal))
+            replay = Replay(read_journal(journal))
             replay.seek(replay.duration_ms)
         except AnaError as error:
             self._say_or_fail("The journal cannot be read", error)
             return
         story = tell(replay)
-        if message.complete or story.actions:
-            self._replace(ResultScreen(story, message.journal))
+        if always or story.actions:
+            self._replace(ResultScreen(story, journal))
         else:
             self._step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         result = message.sender
-        if message.what == "again" and self._options is not None:
-            self.offer_mission(self._options.again())
+        if message.what == "again":
+            options = self._options or self._chosen()
+            self.offer_mission(options.again())
         elif message.what == "replay":
             self.replay(result.journal)
         elif message.what == "card":
@@ -422,9 +498,14 @@ class AnaApp(Program, inherit_bindings=False):
         except AnaError as error:
             self._say_or_fail("This mission cannot be replayed", error)
 
-    def _replay_chosen(self, journal: Path | None) -> None:
-        if journal is not None:
+    def _journal_chosen(self, chosen: Chosen | None) -> None:
+        if chosen is None:
+            return
+        what, journal = chosen
+        if what == "replay":
             self.replay(journal)
+        else:
+            self.show_result(journal)
 
     def show_replay(self, replay: Replay) -> None:
         """Show a replay over whatever is shown."""

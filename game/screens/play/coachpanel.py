@@ -13,16 +13,16 @@ from game.coach.spec import CoachSpec, build_coach
 from game.journal.thoughts import Thoughts
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.widgets.minimap import Pin
-from game.world.building import Building, Severity, VictimSite
+from game.world.building import Building, VictimSite
 from game.world.events import MissionEvent
 from game.world.geometry import Cell
 from game.world.observation import Guidance, Observation
+from game.world.picture import VICTIM_SIGNS
 
-LIKELY = ("·", "∘", "○", "◉", "●")
-"""Marks of a victim on the map by its posterior: below .05, .2, .4, .7, and above."""
 _STEPS = (0.05, 0.2, 0.4, 0.7)
+"""Where the colour of a victim's posterior changes."""
 _KNOWN = (0.2, 0.4, 0.6, 0.8)
-"""The same marks for a room by P(known)."""
+"""The same for a room by P(known)."""
 LISTED = 5
 """So many victims are listed, the most likely first."""
 _WHY: dict[ChoiceReason, str] = {
@@ -72,8 +72,7 @@ class OverheardCoach:
 
 
 def coach_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
-    """On the map, the fuller the likelier: every room as one that the rescuer knows, or every
-    victim as the one that they walk to."""
+    """On the map, as tenths: how likely the rescuer knows each room, or walks to each victim."""
     if thoughts.judged is not None:
         known = thoughts.judged.known
         return {
@@ -93,7 +92,7 @@ def coach_pins(thoughts: Thoughts, building: Building) -> dict[Cell, Pin]:
 
 def _pin(chance: float, steps: Sequence[float]) -> Pin:
     step = sum(chance >= limit for limit in steps)
-    return LIKELY[step], f"likely-{step}"
+    return str(min(9, int(10 * chance))), f"likely-{step}"
 
 
 def coach_rows(
@@ -217,7 +216,7 @@ def _listed(thoughts: Thoughts, building: Building, columns: int) -> list[Row]:
 
 def _named(victim: VictimSite, building: Building, columns: int) -> Sequence[Run]:
     room = building.room_of(victim)
-    mark = ("● ", "red") if victim.severity is Severity.RED else ("○ ", "blue")
+    mark = (f"{VICTIM_SIGNS[victim.severity]} ", str(victim.severity))
     name = room.name if room is not None else "hallway"
     return mark, (name[: columns - 2], "strong")
 
@@ -227,7 +226,7 @@ class CoachPanel(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         "badge", "quiet", "strong", "faint", "title", "mark", "low", "middle", "high", "red",
-        "blue", *(f"likely-{step}" for step in range(len(LIKELY))),
+        "blue", *(f"likely-{step}" for step in range(len(_STEPS) + 1)),
     }  # fmt: skip
 
     def __init__(self, building: Building, spec: CoachSpec) -> None:

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, get_args
 
+from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.message import Message
 from textual.screen import Screen
 
+from game.screens.play.past_missions import (
+    PastMission,
+    best,
+    difficulty,
+    newest_journals,
+    of_kind,
+    past_missions,
+)
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
 from game.screens.widgets.preferences import Preferences
 from game.world import load_building
+from game.world.library import GENERATED
+from game.world.settings import MissionSettings
+from game.world.variant import Difficulty
 
 _LETTERS = (
     "▄▀▀▀▄  █▄  █  ▄▀▀▀▄",
@@ -39,7 +52,10 @@ _SCENE_KINDS = {
     "B": Kind.BLUE,
     "@": Kind.PLAYER_EAST,
 }
-BUILDINGS = ("harbour", "foundry", "practice")
+BUILDINGS = ("harbour", "foundry", "practice", GENERATED)
+VICTIMS = {"drawn": "as drawn", "seeded": "elsewhere each time"}
+MOST_DIGITS = 9
+"""Of a seed that is typed."""
 COACHES = (
     ("ana", "ana, which adapts to you"),
     ("knowledge", "knowledge, which learns what you know"),
@@ -51,11 +67,12 @@ MEMORISING = ((0, "no"), (60, "for one minute"), (180, "for three minutes"))
 
 
 class Item(NamedTuple):
-    """A line of the menu; a `choice` changes with left and right."""
+    """A line of the menu; a `choice` changes with left and right, a `note` stands there."""
 
     action: str
     text: str
     choice: str = ""
+    note: str = ""
 
 
 def scene_rows(glyphs: GlyphSet) -> list[Row]:
@@ -64,20 +81,25 @@ def scene_rows(glyphs: GlyphSet) -> list[Row]:
 
 
 @cache
-def _building_name(shipped: str) -> str:
-    return load_building(shipped).name
+def _building_name(name: str) -> str:
+    return "another office each time" if name == GENERATED else load_building(name).name
 
 
-def menu_items(preferences: Preferences) -> tuple[Item, ...]:
-    """The lines of the menu, in order."""
+def menu_items(preferences: Preferences, reached: str = "", seed: str = "") -> tuple[Item, ...]:
+    """The lines of the menu, in order; `reached` is what was reached before in such a mission, and
+    `seed` what was typed."""
     return (
-        Item("play", "Play"),
+        Item("play", "Play", note=reached),
         Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
+        Item("victims", "  people lie", VICTIMS[preferences.victims]),
+        Item("difficulty", "  difficulty", preferences.difficulty),
         Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
+        Item("seed", "  seed", note=f"{seed}▏" if seed else "a new one; or type a number"),
+        Item("today", "Mission of the day"),
         Item("tutorial", "Tutorial, three minutes"),
         Item("watch", "Watch a simulated rescuer"),
-        Item("replay", "Replay a mission"),
+        Item("replay", "Your missions"),
         Item("howto", "How to play"),
         Item("quit", "Quit"),
     )
@@ -88,7 +110,7 @@ def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
     rows: list[Row] = []
     for number, item in enumerate(items):
         chosen = number == selected
-        choice = f"‹ {item.choice} ›" if item.choice else ""
+        choice = f"‹ {item.choice} ›" if item.choice else item.note
         text = f" {'▸' if chosen else ' '} {item.text:<15}{choice}"
         rows.append(((f"{text:<48}", "selected" if chosen else "item"),))
     return rows
@@ -140,6 +162,11 @@ class HomeScreen(Screen[None]):
         Binding("left,h,a", "change(-1)", id="home.left"),
         Binding("right,l,d", "change(1)", id="home.right"),
         Binding("enter,space", "choose", id="home.choose"),
+        *(
+            Binding(str(digit), f"digit('{digit}')", id=f"home.digit.{digit}")
+            for digit in range(10)
+        ),
+        Binding("backspace,delete", "rub_out", id="home.rub_out"),
         Binding("question_mark,f1", "want('howto')", id="home.howto"),
         Binding("p,P", "want('play')", id="home.play"),
         Binding("r,R", "want('replay')", id="home.replay"),
@@ -147,9 +174,19 @@ class HomeScreen(Screen[None]):
         Binding("q,Q,escape,ctrl+q,ctrl+c", "want('quit')", id="home.quit"),
     ]
 
-    def __init__(self, preferences: Preferences) -> None:
+    def __init__(
+        self,
+        preferences: Preferences,
+        log_dir: Path,
+        rules: Callable[[Difficulty], MissionSettings],
+    ) -> None:
         super().__init__()
         self.preferences = preferences
+        self._log_dir = log_dir
+        self._rules = rules
+        self._past: tuple[PastMission, ...] = ()
+        self.seed = ""
+        """Digits, where a seed was typed."""
         self._page = HomePage()
         self._selected = 0
 
@@ -162,25 +199,68 @@ class HomeScreen(Screen[None]):
 
     def on_mount(self) -> None:
         self._show()
+        self._read()
+
+    @work(thread=True)
+    def _read(self) -> None:
+        """Read what was played before, meanwhile."""
+        past = past_missions(newest_journals(self._log_dir))
+        self.app.call_from_thread(self._have_read, past)
+
+    def _have_read(self, past: tuple[PastMission, ...]) -> None:
+        self._past = past
+        if self.is_attached:
+            self._show()
 
     def _show(self) -> None:
-        self._page.show(menu_items(self.preferences), self._selected)
+        self._page.show(self._items(), self._selected)
+
+    def _items(self) -> tuple[Item, ...]:
+        return menu_items(self.preferences, self._reached(), self.seed)
+
+    def _reached(self) -> str:
+        """The best and the latest result of such a mission as is chosen."""
+        kind, _, level = self.preferences.coach.partition("-")
+        coach = f"{kind} C{level}" if level else kind
+        building = _building_name(self.preferences.building)
+        named = self.preferences.difficulty
+        such = of_kind(self._past, (building, coach, difficulty(self._rules(named), named)))
+        top = best(such)
+        if top is None:
+            return ""
+        return f"best {top.rescued}, last time {max(such, key=lambda it: it.at).rescued}"
 
     def action_move(self, way: int) -> None:
-        self._selected = (self._selected + way) % len(menu_items(self.preferences))
+        self._selected = (self._selected + way) % len(self._items())
         self._show()
 
     def action_change(self, way: int) -> None:
-        item = menu_items(self.preferences)[self._selected].action
+        item = self._items()[self._selected].action
         if item in _CHOICES:
             wanted = _next(_CHOICES[item], getattr(self.preferences, item), way)
             self.preferences = self.preferences.replaced(**{item: wanted})
         self._show()
 
+    def action_digit(self, digit: str) -> None:
+        """Type a digit of the seed."""
+        if len(self.seed) < MOST_DIGITS:
+            self.seed += digit
+        self._select("seed")
+
+    def action_rub_out(self) -> None:
+        self.seed = self.seed[:-1]
+        self._select("seed")
+
+    def _select(self, action: str) -> None:
+        self._selected = [item.action for item in self._items()].index(action)
+        self._show()
+
     def action_choose(self) -> None:
-        item = menu_items(self.preferences)[self._selected]
+        item = self._items()[self._selected]
         if item.choice:
             self.action_change(1)
+        elif item.action == "seed":
+            self.action_want("play")
         else:
             self.action_want(item.action)
 
@@ -190,6 +270,8 @@ class HomeScreen(Screen[None]):
 
 _CHOICES: dict[str, Sequence[Any]] = {
     "building": BUILDINGS,
+    "victims": list(VICTIMS),
+    "difficulty": get_args(Difficulty),
     "coach": [name for name, _ in COACHES],
     "memorise": [seconds for seconds, _ in MEMORISING],
 }

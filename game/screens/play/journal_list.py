@@ -1,76 +1,102 @@
-"""Choosing a journal to replay: the newest first."""
+"""The missions that were played: a chart of what they came to, and a list to choose from."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
-from functools import lru_cache
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
+from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
-from game.errors import AnaError
-from game.journal.history import read_history
-from game.journal.reader import read_journal
-from game.screens.play.mission_story import coach_name
-from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.play.past_missions import PastMission, past_mission
+from game.screens.widgets.canvas import BLANK, Canvas, Row, Run
+from game.screens.widgets.charts import bars
 from game.screens.widgets.keyline import KeyLine
 
-LISTED = 200
+CHART_ROWS = 6
+LEAST_LISTED = 8
+"""So many rows the list keeps before there is a chart."""
+Chosen = tuple[Literal["replay", "result"], Path]
 
 
-@lru_cache(maxsize=LISTED)
 def journal_text(path: Path) -> str:
     """What was played in a journal, by whom if simulated, and what it came to."""
-    try:
-        transcript = read_journal(path)
-    except AnaError:
-        return "cannot be read"
-    played = read_history(transcript).missions
-    if not played:
-        return "no mission"
-    first = played[0]
-    if first.step.phase == "practice":
-        return "tutorial"
-    rescued = sum(fate == "rescued" for fate, _ in first.fates.values())
-    parts = [first.started.building, coach_name(first.started.coach), f"{rescued} rescued"]
-    if first.end == "abandoned":
+    mission = past_mission(path)
+    if isinstance(mission, str):
+        return mission
+    parts = [mission.building, mission.coach, f"{mission.rescued} rescued"]
+    if mission.difficulty != "standard":
+        parts.append(mission.difficulty)
+    if mission.map_s:
+        parts.append(f"map {mission.map_s} s")
+    if not mission.ended:
         parts.append("left early")
-    if transcript.started.simulated:
-        parts.append(f"simulated {transcript.started.rescuer}")
+    if mission.rescuer:
+        parts.append(f"simulated {mission.rescuer}")
     return " · ".join(parts)
 
 
+def history_rows(
+    missions: Sequence[PastMission], selected: Path | None, columns: int, rows: int
+) -> list[Row]:
+    """A bar for the rescues of each mission that a person finished, the oldest first, as many as
+    fit: the selected one stands out, and those of its kind are brighter than the others."""
+    shown = sorted((it for it in missions if it.counts), key=lambda it: it.at)
+    chosen = next((it for it in missions if it.journal == selected), None)
+    highest = max((it.people for it in shown), default=1)
+
+    def style(mission: PastMission) -> str:
+        if mission.journal == selected:
+            return "bar"
+        return "area" if chosen is None or mission.kind == chosen.kind else "faint"
+
+    values = [(mission.rescued, style(mission)) for mission in shown]
+    return bars("Rescued, mission by mission", values, highest, columns=columns, rows=rows)
+
+
 class JournalList(Canvas):
-    """Shows as many journals as fit, around the selected one."""
+    """Shows as many journals as fit, around the selected one, below a chart if there is room."""
 
-    COMPONENT_CLASSES: ClassVar[set[str]] = {"item", "selected", "title", "quiet"}
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        "item", "selected", "title", "quiet", "faint", "area", "bar",
+    }  # fmt: skip
 
-    def show(self, journals: Sequence[Path], selected: int) -> None:
+    def show(
+        self, journals: Sequence[Path], selected: int, missions: Sequence[PastMission]
+    ) -> None:
         """Draw the list."""
-        rows: list[Row] = [(("  Replay which mission?", "title"),), BLANK]
-        high = max(1, self.size.height - 3)
+        rows: list[Row] = []
+        counted = sum(mission.counts for mission in missions)
+        if counted > 1 and self.size.height >= CHART_ROWS + LEAST_LISTED:
+            chart = history_rows(missions, journals[selected], self.size.width - 2, CHART_ROWS - 2)
+            rows += [*chart, BLANK]
+        rows += [(("  Your missions", "title"),), BLANK]
+        high = max(1, self.size.height - len(rows) - 1)
         first = max(0, min(selected - high // 2, len(journals) - high))
         for number, path in enumerate(journals[first : first + high], start=first):
             played = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
             style = "selected" if number == selected else "item"
-            text = f"  {played:%d %b %Y  %H:%M}  {journal_text(path)}  "
-            rows.append(((text, style),))
+            text: Run = (f"  {played:%d %b %Y  %H:%M}  {journal_text(path)}  ", style)
+            rows.append((text,))
         if not journals:
             rows.append((("  There are no missions yet: play one first.", "quiet"),))
         self.draw(rows)
 
 
-class JournalsScreen(Screen[Path]):
-    """Dismissed with the journal chosen, or with None."""
+class JournalsScreen(Screen[Chosen]):
+    """Dismissed with what is to be seen of the journal chosen, or with None."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("up,k", "move(-1)", id="journals.up"),
-        Binding("down,j", "move(1)", id="journals.down"),
-        Binding("enter,space", "choose", id="journals.choose"),
+        Binding("up,k,w", "move(-1)", id="journals.up"),
+        Binding("down,j,s", "move(1)", id="journals.down"),
+        Binding("pageup", "move(-10)", id="journals.page_up"),
+        Binding("pagedown", "move(10)", id="journals.page_down"),
+        Binding("enter,space", "choose('replay')", id="journals.choose"),
+        Binding("r,R", "choose('result')", id="journals.result"),
         Binding("escape,q,Q,ctrl+q,ctrl+c", "dismiss", id="journals.back"),
     ]
 
@@ -78,23 +104,44 @@ class JournalsScreen(Screen[Path]):
         super().__init__()
         self._journals = journals
         self._selected = 0
+        self._missions: tuple[PastMission, ...] = ()
         self._list = JournalList()
 
     def compose(self) -> ComposeResult:
         yield self._list
-        yield KeyLine(("↑ ↓", "choose"), ("Enter", "replay"), ("Esc", "back"), id="keys")
+        yield KeyLine(
+            ("↑ ↓", "choose"), ("Enter", "replay"), ("R", "result page"), ("Esc", "back"),
+            id="keys",
+        )  # fmt: skip
+
+    def on_mount(self) -> None:
+        self._read()
+
+    @work(thread=True)
+    def _read(self) -> None:
+        found = (past_mission(path) for path in self._journals)
+        missions = tuple(it for it in found if isinstance(it, PastMission))
+        self.app.call_from_thread(self._have_read, missions)
+
+    def _have_read(self, missions: tuple[PastMission, ...]) -> None:
+        self._missions = missions
+        if self.is_attached:
+            self._show()
 
     def on_resize(self) -> None:
         self.call_after_refresh(self._show)
 
     def _show(self) -> None:
-        self._list.show(self._journals, self._selected)
+        self._list.show(self._journals, self._selected, self._missions)
 
     def action_move(self, way: int) -> None:
-        if self._journals:
-            self._selected = (self._selected + way) % len(self._journals)
-            self._show()
+        count = len(self._journals)
+        if not count:
+            return
+        to = self._selected + way
+        self._selected = to % count if abs(way) == 1 else max(0, min(to, count - 1))
+        self._show()
 
-    def action_choose(self) -> None:
+    def action_choose(self, what: Literal["replay", "result"]) -> None:
         if self._journals:
-            self.dismiss(self._journals[self._selected])
+            self.dismiss((what, self._journals[self._selected]))

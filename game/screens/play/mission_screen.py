@@ -18,6 +18,7 @@ from textual.widget import Widget
 
 from game.errors import AnaError
 from game.journal.journal_error import JournalError
+from game.mission_words import ENGLISH, MissionWords
 from game.screens.play.live import LiveMission
 from game.screens.play.missionview import MissionView
 from game.screens.widgets.dialogs import Help, Notice, Pause, leave_question
@@ -76,11 +77,11 @@ class LiveScreen(Screen[None]):
         Binding("q,Q,ctrl+q,ctrl+c,escape", "leave", "Leave", id="mission.leave"),
     ]
 
-    def __init__(self, live: LiveMission, journal: Path) -> None:
+    def __init__(self, live: LiveMission, journal: Path, words: MissionWords = ENGLISH) -> None:
         super().__init__()
         self.live = live
         self.journal = journal
-        self.view = MissionView(live.settings, self.extra())
+        self.view = MissionView(live.settings, self.extra(), words)
         self._alarm: asyncio.TimerHandle | None = None
         self._armed_ms = 0
         self._over = False

@@ -6,6 +6,7 @@ from textual.app import ComposeResult
 from textual.containers import Container
 from textual.widget import Widget
 
+from game.mission_words import ENGLISH, MissionWords
 from game.screens.widgets.instruction_bar import InstructionBar
 from game.screens.widgets.minimap import MiniMap, Pins
 from game.screens.widgets.officeview import OfficeView
@@ -28,12 +29,17 @@ class MissionView(Container):
     A grid without inner containers: each would be composed again at every paint.
     """
 
-    def __init__(self, settings: MissionSettings, extra: Widget | None = None) -> None:
+    def __init__(
+        self,
+        settings: MissionSettings,
+        extra: Widget | None = None,
+        words: MissionWords = ENGLISH,
+    ) -> None:
         super().__init__()
         self._extra = extra
         self.bar = InstructionBar()
         self.office = OfficeView()
-        self.status = StatusPanel(settings)
+        self.status = StatusPanel(settings, words)
         self.minimap = MiniMap()
 
     def compose(self) -> ComposeResult:

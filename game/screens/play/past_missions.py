@@ -16,9 +16,11 @@ from game.screens.play.mission_story import coach_name
 from game.world.building import Building, Severity
 from game.world.reading import parse_building
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import Difficulty, with_demands
 
 MOST = 200
 """So many journals are looked at, the newest first."""
+CANNOT_BE_READ = "cannot be read"
 _OF_NO_WEIGHT = frozenset({"show_score", "allow_pause", "level_key", "controls"})
 """Settings that make a mission neither easier nor harder."""
 _WORDS = {
@@ -56,18 +58,20 @@ class PastMission:
         return self.ended and not self.rescuer
 
 
-def difficulty(rules: MissionSettings) -> str:
-    """The settings that make a mission easier or harder than usual, in words; `standard` if none
-    does."""
+def difficulty(rules: MissionSettings, named: Difficulty = "standard") -> str:
+    """A difficulty, and the settings that were changed from it and weigh, in words."""
+    usual = with_demands(FREE_PLAY, named)
     changed = [
         _WORDS[field.name].format(round(value / 1000))
         if field.name in _WORDS and value is not None
         else f"{field.name.replace('_', ' ')} {value}"
         for field in fields(rules)
         if field.name not in _OF_NO_WEIGHT
-        and (value := getattr(rules, field.name)) != getattr(FREE_PLAY, field.name)
+        and (value := getattr(rules, field.name)) != getattr(usual, field.name)
     ]
-    return ", ".join(changed) or "standard"
+    if changed and named == "standard":
+        return ", ".join(changed)
+    return ", ".join([named, *changed])
 
 
 def newest_journals(folder: Path) -> tuple[Path, ...]:
@@ -80,29 +84,31 @@ def past_missions(journals: Iterable[Path]) -> tuple[PastMission, ...]:
     """The missions of these journals, in their order, without those that hold none or cannot be
     read."""
     found = (past_mission(path) for path in journals)
-    return tuple(mission for mission in found if mission is not None)
+    return tuple(mission for mission in found if isinstance(mission, PastMission))
 
 
-def past_mission(journal: Path) -> PastMission | None:
-    """The first mission of a journal; None if it holds none, or cannot be read."""
+def past_mission(journal: Path) -> PastMission | str:
+    """The first mission of a journal; or, in words, why there is none."""
     try:
         stat = journal.stat()
     except OSError:
-        return None
+        return CANNOT_BE_READ
     return _read(journal, stat.st_mtime_ns, stat.st_size)
 
 
 @lru_cache(maxsize=2 * MOST)
-def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | None:
+def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
     try:
         transcript = read_journal(journal)
         history = read_history(transcript)
-        if not history.missions or history.missions[0].step.phase == "practice":
-            return None
+        if not history.missions:
+            return "no mission"
         played = history.missions[0]
+        if played.step.phase == "practice":
+            return "tutorial"
         building = _building(played.started.building_text, played.started.building)
     except AnaError:
-        return None
+        return CANNOT_BE_READ
     opening = transcript.started
     started = played.started
     return PastMission(
@@ -110,7 +116,7 @@ def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | None:
         at=datetime.fromisoformat(history.started_utc).astimezone(),
         building=started.building,
         coach=coach_name(started.coach),
-        difficulty=difficulty(started.settings),
+        difficulty=difficulty(started.settings, started.variant.difficulty),
         people=len(building.victims),
         rescued=sum(fate == "rescued" for fate, _ in played.fates.values()),
         points=_points(played, building) if started.settings.show_score else None,

@@ -19,11 +19,12 @@ from game.screens.widgets.minimap import (
     SmallMap,
     map_size,
 )
-from game.world.building import Severity, VictimSite
+from game.world.building import VictimSite
 from game.world.geometry import Cell, Heading
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
 from game.world.labels import label_lines
 from game.world.observation import VictimState
+from game.world.picture import VICTIM_SIGNS
 from game.world.plan import Tile
 
 STAGES = 4
@@ -60,7 +61,7 @@ def victim_pin(victim: VictimSite, state: VictimState) -> Pin:
         return "✓", "rescued"
     if state is VictimState.EXPIRED:
         return "✗", "expired"
-    return ("●", "red") if victim.severity is Severity.RED else ("○", "blue")
+    return VICTIM_SIGNS[victim.severity], str(victim.severity)
 
 
 def path_map(story: MissionStory, *, columns: int, filled: bool) -> list[Row]:
@@ -148,7 +149,7 @@ def _names(story: MissionStory) -> dict[Cell, Pin]:
     for room in building.rooms:
         free = tuple(cell for cell in room.cells if cell not in taken)
         for line in label_lines(room.name, free, LABEL_SCALE) if free else ():
-            for column, letter in enumerate(line.text, start=line.column):
+            for column, letter in line.letters:
                 pins[column, LABEL_SCALE.cells * line.row] = letter, "name"
     return pins
 

@@ -29,7 +29,7 @@ JUMP_MS = 5_000
 FRAME_S = 0.1
 """While playing, the screen follows ten times a second: a replay has no keys to answer."""
 
-_MARKS = {LevelChanged: ("◆", "level"), Rescued: ("✓", "rescued"), Expired: ("✗", "expired")}
+MARKS = {LevelChanged: ("◆", "level"), Rescued: ("✓", "rescued"), Expired: ("✗", "expired")}
 """What stands on the time line; of two in one column the later here."""
 
 
@@ -58,11 +58,11 @@ def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) ->
 
     here = column(replay.time_ms)
     line = [("━", "done") if at <= here else ("─", "faint") for at in range(wide)]
-    kinds: list[type] = list(_MARKS)
+    kinds: list[type] = list(MARKS)
     for record in sorted(replay.highlights, key=lambda record: kinds.index(type(record))):
-        line[column(record.at_ms)] = _MARKS[type(record)]
-    line[here] = line[here][0] if line[here][0] not in "━─" else "●", "moment"
-    state = "▶ playing" if playing else "■ stopped"
+        line[column(record.at_ms)] = MARKS[type(record)]
+    line[here] = line[here][0] if line[here][0] not in "━─" else "┃", "moment"
+    state = "▶ playing" if playing else "‖ stopped"
     where = f"  {_at(replay.time_ms)} of {_at(replay.duration_ms)}"
     legend: Row = (
         ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" lost ", "quiet"),

@@ -17,6 +17,7 @@ from textual.screen import Screen
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.past_missions import (
+    PastMission,
     newest_journals,
     past_mission,
     past_missions,
@@ -94,14 +95,13 @@ def total_rows(story: MissionStory) -> list[Row]:
         (f"{story.rescued} of {total} rescued", "big"),
         (f"   {saved[Severity.RED]} red, {saved[Severity.BLUE]} blue", "quiet"),
         (f"   {lost} not reached in time" if lost else "", "quiet"),
+        ("   unseen victims are not shown" if len(story.revealed) < total else "", "quiet"),
     )
     if story.settings.show_score:
         first = (*first, (f"   {story.score} points", "big"))
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
     left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
-    if len(story.revealed) < total:
-        told = "The victims you had not seen are not shown, so that you can play it as new."
     where = ", ".join(filter(None, (story.building.name, story.unusual)))
     return [first, ((left, "big"), (f"{where} · {told}", "quiet"))]
 
@@ -329,7 +329,7 @@ class ResultScreen(Screen[None]):
     def _look_around(self) -> None:
         """Compare with what was played before, and with a literal reader."""
         now = past_mission(self.journal)
-        if now is not None:
+        if isinstance(now, PastMission):
             told = standing(now, past_missions(newest_journals(self.journal.parent.parent)))
             self.app.call_from_thread(self._compare, told, None)
         story = self.story

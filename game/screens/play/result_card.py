@@ -37,10 +37,9 @@ def headline(story: MissionStory) -> str:
 
 def circumstances(story: MissionStory) -> str:
     """Where, with whom, by which rules, and from which seed."""
-    return (
-        f"{story.building.name}, coach {coach_name(story.spec)}, "
-        f"{difficulty(story.settings)}, seed {story.seed}"
-    )
+    words = [story.building.name, f"coach {coach_name(story.spec)}"]
+    words.append(story.unusual or difficulty(story.settings))
+    return ", ".join([*words, f"seed {story.seed}"])
 
 
 def card_text(story: MissionStory) -> str:
@@ -148,7 +147,7 @@ def _way(story: MissionStory) -> Iterator[str]:
 
 def _victims(story: MissionStory) -> Iterator[str]:
     """Full where red, open where blue; green where rescued, crossed where lost."""
-    for fate in story.fates.values():
+    for fate in (story.fates[victim] for victim in sorted(story.revealed)):
         x, y = (_middle(at) for at in fate.victim.cell)
         red = fate.victim.severity is Severity.RED
         ink = _RED if red else _BLUE

@@ -41,6 +41,7 @@ def card_rows(
     building: Building,
     rules: MissionSettings,
     spec: CoachSpec,
+    about: str,
     glyphs: GlyphSet,
     columns: int,
 ) -> list[Row]:
@@ -52,7 +53,7 @@ def card_rows(
     coach = _COACHES.get(coach_name(spec), "")
     bar = f"The yellow bar at the top tells you where to go. {coach}"
     return [
-        ((building.name, "title"),),
+        ((building.name, "title"), (f"   {about}", "quiet")),
         ((f"{reds + blues} people are hurt. You have {time} to find and treat them.", "strong"),),
         BLANK,
         (glyphs[Kind.RED], (f"  {reds} red: dies unless treated {red_time(rules)}", "")),
@@ -73,9 +74,11 @@ class StartCard(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "title", "key", "quiet", "strong", "example"}
 
-    def __init__(self, building: Building, rules: MissionSettings, spec: CoachSpec) -> None:
+    def __init__(
+        self, building: Building, rules: MissionSettings, spec: CoachSpec, about: str
+    ) -> None:
         super().__init__()
-        self._mission = building, rules, spec
+        self._mission = building, rules, spec, about
 
     def on_resize(self, event: events.Resize) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
@@ -104,11 +107,12 @@ class StartScreen(Screen[None]):
         rules: MissionSettings,
         spec: CoachSpec,
         begin: Callable[[], None],
+        about: str = "",
     ) -> None:
         super().__init__()
         self._rules = rules
         self._begin = begin
-        self._card = StartCard(building, rules, spec)
+        self._card = StartCard(building, rules, spec, about)
 
     def compose(self) -> ComposeResult:
         with VerticalScroll(classes="card", can_focus=False):

@@ -15,6 +15,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 
 from game.errors import AnaError
+from game.mission_words import KeyNames
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.prose import body, heading
@@ -31,15 +32,26 @@ class Frame:
     size: ScreenSize
     words: ScreenWords
 
+    @property
+    def keys(self) -> KeyNames:
+        """What stands on the keys."""
+        return self.words.mission.keys
+
+    def question(self, title: str, text: str, *, yes: str, no: str) -> Question:
+        """A question that is answered by the study's own letters, too."""
+        return Question(title, text, yes=yes, no=no, keys=self.keys)
+
     def stop_question(self) -> Question:
         """Asks whether to stop taking part."""
         words = self.words
-        return Question(words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no)
+        return self.question(
+            words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no
+        )
 
     def decline_question(self) -> Question:
         """Asks whether someone really does not want to take part."""
         words = self.words
-        return Question(words.decline_title, words.decline_text, yes=words.yes, no=words.no)
+        return self.question(words.decline_title, words.decline_text, yes=words.yes, no=words.no)
 
 
 class FixedStage(Vertical):
@@ -142,7 +154,7 @@ class StudyScreen(Screen["Result | AnaError | None"], Generic[Result]):
 
     def show_keys(self, *keys: tuple[str, str], remark: str = "") -> None:
         """Name the keys, and those that scroll where there is more than fits."""
-        more = (("PgUp PgDn", self.frame.words.scroll),) if self.scrolls else ()
+        more = ((self.frame.keys.page, self.frame.words.scroll),) if self.scrolls else ()
         self.query_one("#keys", KeyLine).set_keys(*keys, *more, remark=remark)
 
     @contextmanager

@@ -115,7 +115,7 @@ class ChoiceScreen(StudyScreen[int]):
         self._seen |= {n for n, span in enumerate(spans) if self._column.holds(self._choice, span)}
         end = self._column.rows_in_view.stop
         below = sum(self._column.span(self._choice, span).stop > end for span in spans)
-        go_on = (("Enter", words.go_on),) if self._choice.chosen is not None else ()
+        go_on = ((self.frame.keys.enter, words.go_on),) if self._choice.chosen is not None else ()
         remark = words.more_below.replace("{count}", str(below)) if below else ""
         self.show_keys(("↑ ↓", words.choose), *go_on, remark=remark)
 

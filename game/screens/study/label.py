@@ -10,8 +10,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 
 from game.screens.study.base import Frame, StudyScreen
-from game.screens.widgets.canvas import BLANK, Canvas, Row
-from game.screens.widgets.dialogs import Question
+from game.screens.widgets.canvas import BLANK, Canvas, Row, padded
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.timed import TICK_S, TimeLine
@@ -46,9 +45,9 @@ class NameList(Canvas):
         for number, name in enumerate(names):
             mark = USED if name in used else " "
             style = "selected" if number == cursor else "used" if name in used else "item"
-            rows.append(((f" {mark} {name} ".ljust(columns), style),))
+            rows.append(padded(((f" {mark} {name} ", style),), columns, style))
         style = "selected" if cursor == len(names) else "item"
-        self.draw([*rows, BLANK, ((f" » {self._finish} ".ljust(columns), style),)])
+        self.draw([*rows, BLANK, padded(((f" » {self._finish} ", style),), columns, style)])
 
 
 class LabelScreen(StudyScreen[bool]):
@@ -73,10 +72,10 @@ class LabelScreen(StudyScreen[bool]):
         names = NameList(words.finish)
         keys = KeyLine(
             ("↑ ↓", words.choose),
-            ("Enter", words.answer),
+            (frame.keys.enter, words.answer),
             ("← →", words.next),
-            ("A-Z", words.filter),
-            ("Del", words.clear),
+            (frame.keys.letters, words.filter),
+            (frame.keys.delete, words.clear),
             id="keys",
         )
         columns = Horizontal(plan, Vertical(names, classes="name-column"), classes="side-by-side")
@@ -208,9 +207,8 @@ class LabelScreen(StudyScreen[bool]):
         words = self.frame.words
         missing = len(self.labelling.rooms) - len(self.labelling.given)
         text = words.finish_text.replace("{count}", str(missing))
-        self.app.push_screen(
-            Question(words.finish_title, text, yes=words.yes, no=words.no), self._finished
-        )
+        question = self.frame.question(words.finish_title, text, yes=words.yes, no=words.no)
+        self.app.push_screen(question, self._finished)
 
     def _finished(self, sure: bool | None) -> None:
         if sure:

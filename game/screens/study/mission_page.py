@@ -10,10 +10,12 @@ from textual.binding import Binding, BindingType
 from textual.containers import Vertical, VerticalScroll
 from textual.screen import ModalScreen
 
+from game.errors import AnaError
 from game.journal.folders import JOURNAL
 from game.screens.play.live import LiveMission, PacedClock
-from game.screens.play.mission_screen import MissionScreen
+from game.screens.play.mission_screen import Failed, MissionScreen
 from game.screens.study.base import FixedStage, Frame
+from game.screens.widgets.instruction_bar import lines_needed
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.prose import body, heading
 from game.screens.widgets.signs import Signs
@@ -57,8 +59,8 @@ class Reminder(ModalScreen[None]):
             with VerticalScroll():
                 yield heading(self._page)
                 yield body(self._page)
-                yield Signs(self._rules)
-            yield KeyLine(("Enter", self._frame.words.go_on))
+                yield Signs(self._rules, self._frame.words.mission)
+            yield KeyLine((self._frame.keys.enter, self._frame.words.go_on))
 
     def action_close(self) -> None:
         self.dismiss()
@@ -75,8 +77,10 @@ class StudyMissionScreen(MissionScreen):
     def __init__(
         self, frame: Frame, live: StudyMission, reminder: Page, level_key: LevelKeyWords
     ) -> None:
-        super().__init__(live, live.task.home / JOURNAL)
+        super().__init__(live, live.task.home / JOURNAL, frame.words.mission)
         self.view.status.timed = self._is_mission
+        rooms = [room.name for room in live.task.building.rooms]
+        self.view.bar.lines = lines_needed(live.task.phrases, rooms, frame.size.columns)
         self.frame = frame
         self.reminder = reminder
         self.level_key = level_key
@@ -108,6 +112,12 @@ class StudyMissionScreen(MissionScreen):
 
     def action_help(self) -> None:
         self.app.push_screen(Reminder(self.frame, self.reminder, self.live.settings))
+
+    def _fail(self, error: AnaError) -> None:
+        """The page that follows says it in the study's own words."""
+        if not self._over:
+            self._over = True
+            self.app.post_message(Failed(error))
 
     def leave_at_once(self) -> None:
         """Stop taking part, without a question."""

@@ -36,7 +36,7 @@ class PageScreen(StudyScreen[bool]):
 
     def _shown(self) -> None:
         self._note_read()
-        self.show_keys(("Enter", self.frame.words.go_on))
+        self.show_keys((self.frame.keys.enter, self.frame.words.go_on))
 
     def _note_read(self) -> None:
         self._read_rows = max(self._read_rows, self._column.rows_in_view.stop)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from html import escape
+from html import escape, unescape
 from pathlib import Path
+
+from rich.cells import cell_len
 
 from game.screens.study.rehearsal import Rehearsed
 from game.study.folder import StudyError
 
 _FONT_RULES = re.compile(r"\s*@font-face \{[^}]*\}")
 """Where a picture would fetch its font from; nothing is fetched."""
+_LENGTHS = re.compile(r'textLength="([\d.]+)"([^>]*)>([^<]*)<')
+"""How wide a text is drawn: it comes counted in letters, some of which take two columns."""
 _LETTER = '<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20">{}</svg>'
 
 _HTML = """<!doctype html>
@@ -38,7 +42,7 @@ def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
             body.append(f"<h2>{escape(page.name)}</h2>")
             for part, picture in enumerate(page.pictures, start=1):
                 path = out / f"{number:02}-{part}.svg"
-                drawn = _FONT_RULES.sub("", picture)
+                drawn = _LENGTHS.sub(_as_wide_as_drawn, _FONT_RULES.sub("", picture))
                 path.write_text(drawn, encoding="utf-8")
                 path.with_suffix(".png").write_bytes(_png(drawn))
                 body.append(f'<img src="{path.name}" alt="{escape(page.name)}">')
@@ -51,6 +55,12 @@ def write_pictures(pages: Sequence[Rehearsed], study: str, out: Path) -> Path:
             hint="Choose a folder that you can write to",
         ) from error
     return index
+
+
+def _as_wide_as_drawn(found: re.Match[str]) -> str:
+    text = unescape(found[3])
+    length = float(found[1]) * cell_len(text) / max(1, len(text))
+    return f'textLength="{length:g}"{found[2]}>{found[3]}<'
 
 
 def _png(svg: str) -> bytes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from textwrap import wrap
 from typing import ClassVar
 
 from textual import events
@@ -14,7 +13,7 @@ from textual.widgets import Static
 
 from game.journal.records import Preflighted
 from game.screens.study.base import Frame, StudyScreen, TextColumn
-from game.screens.widgets.canvas import BLANK, Canvas, Run
+from game.screens.widgets.canvas import BLANK, Canvas, Run, wrapped
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.terminal import colours, this_terminal
 from game.study.study_settings import ScreenSize
@@ -71,7 +70,7 @@ class PreflightScreen(StudyScreen[Preflighted]):
         words, size = self.frame.words, self.app.size
         enough, all_keys = self._enough, self._keys_work
         window = f"{words.size_fine}." if enough else size_text(self.frame, size.width, size.height)
-        first, *more = wrap(window, max(20, min(size.width, COLUMNS) - INDENT))
+        first, *more = wrapped(window, max(20, min(size.width, COLUMNS) - INDENT))
         keys: list[Run] = [
             (f" {sign} ", "arrived" if key in self._pressed else "awaited")
             for key, sign in ARROWS.items()
@@ -87,7 +86,7 @@ class PreflightScreen(StudyScreen[Preflighted]):
                 ((" " * INDENT, ""), *spaced),
             ]
         )
-        self._keys.set_keys(*((("Enter", words.go_on),) if self._ready else ()))
+        self._keys.set_keys(*(((self.frame.keys.enter, words.go_on),) if self._ready else ()))
 
     def on_key(self, event: events.Key) -> None:
         if event.key in ARROWS:

@@ -75,7 +75,7 @@ class ReasonScreen(StudyScreen[str]):
         if self._too_many:
             self._keys.set_keys(remark=_counted(words.too_long, self._too_many))
         else:
-            self._keys.set_keys(("Enter", words.go_on))
+            self._keys.set_keys((self.frame.keys.enter, words.go_on))
 
     def on_words_refused(self, message: Words.Refused) -> None:
         words = self.frame.words

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -12,35 +13,36 @@ from pathlib import Path, PurePath
 from typing import Any, ClassVar, Literal
 
 from textual.app import App
-from textual.containers import Center
 from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widget import Widget
-from textual.widgets import Static
 
 from game.journal.clock import VirtualClock
 from game.journal.sink import MemorySink
 from game.rescuers.person import POPULATIONS
 from game.screens.study.app import StudyApp
-from game.screens.study.base import Frame, StudyScreen
+from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.label import LabelScreen
 from game.screens.study.likert import LikertScreen
+from game.screens.study.memorise import MemoriseScreen
+from game.screens.study.mission_rehearsal import legend_words, mission_pages, windows
 from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
 from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
 from game.screens.widgets.signs import Signs
+from game.screens.widgets.theme import Look
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
 from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study
 from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
-from game.study.look import Look
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
-from game.study.protocol.tasks import Memorising, Sheet
+from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
 from game.study.texts import Consent, Page, filled, preceded
 from game.world.building import Building
 
@@ -111,11 +113,15 @@ def _unseen(words: str, views: Sequence[Sequence[str]]) -> Iterator[str]:
     without spaces, may be broken between lines."""
     lines = [line for view in views for line in view]
     tokens = {token for line in lines for token in line.split()}
-    joined = ["".join("".join(line.split()) for line in view) for view in views]
+    joined = ["".join(_FRAMES.sub("", line) for line in view) for view in views]
     for word in dict.fromkeys(words.replace("**", "").split()):
         in_a_line = word in tokens or any(word in line for line in lines)
         if not in_a_line and not (_may_break(word) and any(word in one for one in joined)):
             yield word
+
+
+_FRAMES = re.compile(r"[\s\u2500-\u259f]+")
+"""Blanks, and the lines and blocks of a frame."""
 
 
 def _may_break(word: str) -> bool:
@@ -128,6 +134,7 @@ class _Rehearsal(SimulatedParticipant):
     def __init__(self, session: StudySession, clock: VirtualClock, frame: Frame) -> None:
         super().__init__(session, clock, POPULATIONS["default"])
         self.pages: list[Rehearsed] = []
+        self._mission_shown = False
         self._frame = frame
         self._study = session.study
         self._mission = session.study.settings.mission
@@ -143,9 +150,14 @@ class _Rehearsal(SimulatedParticipant):
         walking = page is self._study.texts.lessons.walking
 
         def made() -> Screen[Any]:
-            return PageScreen(self._frame, page, *([Signs(self._mission)] if walking else []))
+            return PageScreen(
+                self._frame,
+                page,
+                *([Signs(self._mission, self._frame.words.mission)] if walking else []),
+            )
 
-        await self._show(page.title, made, page)
+        legend = legend_words(self._frame, self._mission) if walking else ()
+        await self._show(page.title, made, page, *legend)
         await super().read(page)
 
     async def look(self, page: Page, building: Building) -> None:
@@ -182,16 +194,30 @@ class _Rehearsal(SimulatedParticipant):
         await self._show(page.title, lambda: ReasonScreen(self._frame, page), page)
         return await super().explain(page)
 
+    async def label(self, task: Labelling) -> None:
+        words, keys = self._frame.words, self._frame.keys
+        title = self._study.texts.label.title
+        small = words.choose, words.answer, words.next, words.filter, words.clear, words.finish
+        said = (title, words.left, *small, keys.enter, keys.letters, keys.delete, *task.names)
+        await self._show(f"{title} 2", lambda: LabelScreen(self._frame, title, task), *said)
+        await super().label(task)
+
+    async def play(self, task: Playing) -> None:
+        if task.goals is None and not self._mission_shown:
+            self._mission_shown = True
+            for page in mission_pages(self._frame, self._study, task.building):
+                await self._show(page.name, page.make, *page.words)
+        await super().play(task)
+
     async def memorise(self, task: Memorising) -> None:
-        map_page = Page(title=f"Map of {task.building.name}", body="")
-        names = (room.name for room in task.building.rooms)
+        title = self._study.texts.memorise.title
+        names = [room.name for room in task.building.rooms]
 
         def made() -> Screen[Any]:
-            title = Static(map_page.title, classes="title", markup=False)
-            plan = Center(PlanMap(task.building), classes="middle")
-            return StudyScreen(self._frame, [title, plan])
+            return MemoriseScreen(self._frame, title, task)
 
-        await self._show(map_page.title, made, *names)
+        words = title, self._frame.words.left, *names
+        await self._show(f"Map of {task.building.name}", made, *words)
         await super().memorise(task)
 
     async def _show(self, name: str, make: Make, *words: Page | str) -> None:
@@ -213,6 +239,8 @@ class _Rehearsal(SimulatedParticipant):
             preceded(likert, texts.cut_off.mission),
         ):
             await self._show(page.title, partial(PageScreen, self._frame, page), page)
+        for window in windows(self._frame, texts, self._mission):
+            await self._show(window.name, window.make, *window.words)
 
 
 async def rehearse(study: Study) -> list[Rehearsed]:

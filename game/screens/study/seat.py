@@ -61,7 +61,9 @@ class ScreenParticipant:
 
     async def read(self, page: Page) -> None:
         if page is self._texts.lessons.walking:
-            await self._show(PageScreen(self._frame, page, Signs(self._rules)))
+            await self._show(
+                PageScreen(self._frame, page, Signs(self._rules, self._frame.words.mission))
+            )
         else:
             await self._show(PageScreen(self._frame, page))
 

@@ -117,7 +117,7 @@ class SheetScreen(StudyScreen[bool]):
             left = words.still_open.replace("{count}", str(missing))
             self.show_keys(*self._answer_keys, turn, remark=left)
         else:
-            self.show_keys(self._answer_keys[0], turn, ("Enter", words.go_on))
+            self.show_keys(self._answer_keys[0], turn, (self.frame.keys.enter, words.go_on))
 
     async def answer(self, value: int) -> bool:
         """Record an answer to the question that the keys are for, and show it. Where not all of the

@@ -97,7 +97,7 @@ class SlidersScreen(SheetScreen):
         return self._typed_at is not None and monotonic() - self._typed_at < TYPED_S
 
     def show_keys(self, *keys: tuple[str, str], remark: str = "") -> None:
-        leap = () if self.scrolls else (("PgUp PgDn", f"±{STEP}"),)
+        leap = () if self.scrolls else ((self.frame.keys.page, f"±{STEP}"),)
         super().show_keys(*keys, *leap, remark=remark)
 
     async def action_slide(self, by: int) -> None:

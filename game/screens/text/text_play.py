@@ -22,6 +22,7 @@ from game.screens.text.text_mission import HeardEvents, TextMission
 from game.session.playing import start_free_play
 from game.world.building import Building, Severity
 from game.world.settings import MissionSettings
+from game.world.variant import USUAL, Variant
 
 STATUS_INTERRUPTED = 130
 _LEAVE = "Leave the mission? Type quit again to leave, or anything else to stay."
@@ -37,6 +38,7 @@ def play_text(
     out: TextIO,
     *,
     memorise_ms: int = 0,
+    variant: Variant = USUAL,
 ) -> int:
     """Play a mission by `lines`, telling it to `out`; the exit status. The end of the lines, or an
     interrupt, leaves the mission. With `memorise_ms` it is first told where the rooms are.
@@ -45,7 +47,7 @@ def play_text(
     """
     run, journal = start_free_play(
         building, settings, spec, seed, log_dir, None,
-        build=HeardEvents.build, memorised_ms=memorise_ms,
+        build=HeardEvents.build, memorised_ms=memorise_ms, variant=variant,
     )  # fmt: skip
     assert isinstance(run.coach, HeardEvents)
     mission = TextMission(run, run.coach, journal, lambda line: print(line, file=out, flush=True))

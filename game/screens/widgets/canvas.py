@@ -56,11 +56,11 @@ def centred(row: Row, columns: int, style: str = "") -> Row:
     return ((" " * max(0, (columns - width(row)) // 2), style), *row)
 
 
-def padded(row: Row, columns: int) -> Row:
-    """A row of exactly `columns`, cut or filled up with blank."""
+def padded(row: Row, columns: int, style: str = "") -> Row:
+    """A row of exactly `columns`, cut or filled up with blank of a style."""
     missing = columns - width(row)
     if missing > 0:
-        return (*row, (" " * missing, ""))
+        return (*row, (" " * missing, style))
     return sliced(row, 0, columns) if missing else row
 
 

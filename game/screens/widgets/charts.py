@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from game.screens.widgets.canvas import Row
+from game.screens.widgets.canvas import Row, Run
 
 MINUTE_MS = 60_000
 _MARK_COLUMNS = 2
 """At least so wide are the marks on the left, so that charts one below the other are in line."""
+_BAR_COLUMNS = 3
+"""Of a bar and the blank after it."""
 _EIGHTHS = " ▁▂▃▄▅▆▇█"
 
 
@@ -76,6 +78,26 @@ def area_chart(
         for row in range(rows)
     ]
     return _framed(title, lines, "area", {0: str(highest), rows - 1: "0"}, margin, full_ms)
+
+
+def bars(
+    title: str, values: Sequence[tuple[int, str]], highest: int, *, columns: int, rows: int
+) -> list[Row]:
+    """A bar for each value, in its style, from 0 to `highest`, in eighths of a row; the last ones
+    where there are more than fit. The title and the axis take a row each."""
+    margin = max(_MARK_COLUMNS, len(str(highest))) + 1
+    wide = max(1, (columns - margin - 1) // _BAR_COLUMNS)
+    shown = values[-wide:]
+    body: list[Row] = []
+    for row in range(rows):
+        mark = str(highest) if row == 0 else "0" if row == rows - 1 else ""
+        line: list[Run] = [(f"{mark:>{margin - 1}} ", "quiet"), ("┤" if mark else "│", "faint")]
+        for value, style in shown:
+            height = -(-8 * rows * value // max(1, highest)) - 8 * (rows - 1 - row)
+            line.append((_EIGHTHS[max(0, min(8, height))] * (_BAR_COLUMNS - 1) + " ", style))
+        body.append(tuple(line))
+    axis = "└" + "─" * (_BAR_COLUMNS * len(shown))
+    return [((f"{' ' * margin} {title}", "title"),), *body, ((" " * margin, ""), (axis, "faint"))]
 
 
 def _by_column(

@@ -12,6 +12,7 @@ from textual.containers import Vertical, VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
+from game.mission_words import ENGLISH, KeyNames
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.howto import HowTo
 from game.screens.widgets.keyline import KeyLine
@@ -26,9 +27,10 @@ class Answers(Canvas):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {"key", "answer", "chosen", "quiet"}
 
-    def __init__(self, yes: str, no: str) -> None:
+    def __init__(self, yes: str, no: str, keys: KeyNames = ENGLISH.keys) -> None:
         super().__init__()
-        self._answers = ("y", yes), ("n", no)
+        self._enter = keys.enter
+        self._answers = (keys.yes, yes), (keys.no, no)
         self.chosen: int | None = None
         self._draw()
 
@@ -44,7 +46,7 @@ class Answers(Canvas):
             picked = number == self.chosen
             mark, style = ("▸ ", "chosen") if picked else ("  ", "answer")
             rows.append((("  ", ""), (f" {key} ", "key"), (f" {mark}{answer} ", style)))
-        self.draw([*rows, BLANK, (("  ", ""), ("↑ ↓   Enter", "quiet"))])
+        self.draw([*rows, BLANK, (("  ", ""), (f"↑ ↓   {self._enter}", "quiet"))])
 
 
 class Question(ModalScreen[bool]):
@@ -59,16 +61,32 @@ class Question(ModalScreen[bool]):
         Binding("enter", "take", id="question.take", priority=True),
     ]
 
-    def __init__(self, title: str, text: str, *, yes: str = "Yes", no: str = "No") -> None:
+    def __init__(
+        self,
+        title: str,
+        text: str,
+        *,
+        yes: str = "Yes",
+        no: str = "No",
+        keys: KeyNames = ENGLISH.keys,
+    ) -> None:
         super().__init__()
-        self._title, self._text = title, text
-        self._answers = Answers(yes, no)
+        self._title, self._text, self._keys = title, text, keys
+        self._answers = Answers(yes, no, keys)
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog"):
             yield Static(self._title, classes="title", markup=False)
             yield Static(self._text, markup=False)
             yield self._answers
+
+    def on_key(self, event: events.Key) -> None:
+        """The letters of another language."""
+        letters = {self._keys.yes.casefold(): True, self._keys.no.casefold(): False}
+        answer = letters.get((event.character or "").casefold())
+        if answer is not None:
+            event.stop()
+            self.dismiss(answer)
 
     def action_answer(self, answer: bool) -> None:
         self.dismiss(answer)

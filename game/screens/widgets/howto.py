@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import ClassVar
 
+from rich.cells import cell_len
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.screen import Screen
 
+from game.mission_words import ENGLISH, MissionWords
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
 from game.screens.widgets.keyline import KeyLine
@@ -18,27 +20,19 @@ from game.world.geometry import Heading
 from game.world.settings import FREE_PLAY, MissionSettings
 
 _MARGIN = "  "
-_LEGEND = (
-    (player_kind(Heading.NORTH), "you: an arrowhead pointing the way you face"),
-    (Kind.RED, "red victim: dies unless treated {in_time}"),
-    (Kind.BLUE, "blue victim: hurt, can wait until the end"),
-    (Kind.TREATED_RED, "being treated: stay until it is finished"),
+_SIGNS = (
+    (player_kind(Heading.NORTH), "you"),
+    (Kind.RED, "red"),
+    (Kind.BLUE, "blue"),
+    (Kind.TREATED_RED, "treated"),
     (Kind.RESCUED, "rescued"),
     (Kind.EXPIRED, "lost"),
     (Kind.WALL, "wall"),
-    (Kind.DOOR, "door: stand next to it to see through"),
-    (Kind.FLOOR, "floor in view"),
-    (Kind.SEEN_FLOOR, "floor you have seen before"),
+    (Kind.DOOR, "door"),
+    (Kind.FLOOR, "floor"),
+    (Kind.SEEN_FLOOR, "seen_floor"),
 )
-_COMPASS_KEYS = (
-    ("↑ ↓ ← →", "walk; also W A S D and H J K L"),
-    ("Space", "treat the victim under or next to you"),
-)
-_TURN_KEYS = (
-    ("↑", "walk the way you face; also W and K"),
-    ("← →", "turn; also A D and H L"),
-    ("Space", "treat the victim under or next to you"),
-)
+"""Each with the name of its meaning in the legend."""
 _LEVELS = (
     ("C1", "every step:", "Turn right. Walk forward 4 steps."),
     ("C2", "what you pass:", "Enter the third door on your left."),
@@ -53,9 +47,9 @@ _BESIDE = 52
 
 def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
-    in_time = red_time(rules)
-    long = [_sign(glyphs, *sign, in_time) for sign in _LEGEND if sign[0] not in _FEW_WORDS]
-    short = [_sign(glyphs, *sign) for sign in _LEGEND if sign[0] in _FEW_WORDS]
+    signs = list(zip(_SIGNS, sign_rows(glyphs, rules), strict=True))
+    long = [row for (kind, _), row in signs if kind not in _FEW_WORDS]
+    short = [row for (kind, _), row in signs if kind in _FEW_WORDS]
     others = [("+ -", "simpler or shorter words")] if rules.level_key else []
     others += [("P", "pause")] if rules.allow_pause else []
     others += [("?", "help"), ("Q", "leave")]
@@ -74,31 +68,39 @@ def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     ]
 
 
-def walking_rows(*, turning: bool) -> list[Row]:
+def walking_rows(*, turning: bool, words: MissionWords = ENGLISH) -> list[Row]:
     """The keys by which the rescuer acts."""
-    return _keys(_TURN_KEYS if turning else _COMPASS_KEYS)
+    legend = words.legend
+    walk = [("↑ ↓ ← →", legend.walk)]
+    turn = [("↑", legend.walk_ahead), ("← →", legend.turn)]
+    keys = [*(turn if turning else walk), (words.keys.space, legend.treat)]
+    columns = max(7, *(cell_len(key) for key, _ in keys))
+    return [_key(f" {_in_the_middle(key, columns)} ", does) for key, does in keys]
 
 
-def sign_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
+def sign_rows(glyphs: GlyphSet, rules: MissionSettings, words: MissionWords = ENGLISH) -> list[Row]:
     """What each sign of the office means."""
-    return [_sign(glyphs, kind, meaning, red_time(rules)) for kind, meaning in _LEGEND]
+    in_time = red_time(rules, words)
+    meanings = [getattr(words.legend, name).replace("{in_time}", in_time) for _, name in _SIGNS]
+    return [
+        ((_MARGIN, ""), glyphs[kind], (f"  {meaning}", ""))
+        for (kind, _), meaning in zip(_SIGNS, meanings, strict=True)
+    ]
 
 
-def red_time(rules: MissionSettings) -> str:
+def red_time(rules: MissionSettings, words: MissionWords = ENGLISH) -> str:
     """By when a red victim must be treated."""
     if 2 * rules.reds_expire_ms == rules.duration_ms:
-        return "by half time"
+        return words.legend.by_half_time
     if rules.reds_expire_ms >= rules.duration_ms:
-        return "before the end"
-    return f"in the first {clock_text(rules.reds_expire_ms)}"
+        return words.legend.before_the_end
+    return words.legend.in_the_first.replace("{time}", clock_text(rules.reds_expire_ms))
 
 
-def _sign(glyphs: GlyphSet, kind: Kind, meaning: str, in_time: str = "") -> Row:
-    return ((_MARGIN, ""), glyphs[kind], (f"  {meaning.format(in_time=in_time)}", ""))
-
-
-def _keys(keys: Iterable[tuple[str, str]]) -> list[Row]:
-    return [_key(f" {key:^7} ", does) for key, does in keys]
+def _in_the_middle(text: str, columns: int) -> str:
+    """The text in the middle of so many columns."""
+    blank = columns - cell_len(text)
+    return f"{' ' * (blank // 2)}{text}{' ' * (blank - blank // 2)}"
 
 
 def _key(key: str, does: str) -> Row:

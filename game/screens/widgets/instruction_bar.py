@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from textwrap import wrap
+import re
+from collections.abc import Iterable
 from time import monotonic
 from typing import ClassVar
 
-from game.screens.widgets.canvas import Canvas, Row
+from rich.cells import cell_len
+
+from game.coach.acts import Level
+from game.coach.instructions.c1 import MOST_LEGS, UTILIZE
+from game.coach.instructions.phrasebook import Phrasebook, everything_said
+from game.coach.instructions.vocabulary import Tuples
+from game.screens.widgets.canvas import Canvas, Row, wrapped
+from game.screens.widgets.program import Program
 from game.world.observation import Guidance
 
 LINES = 3
@@ -15,8 +23,30 @@ FLASH_S = 0.6
 """How long a new instruction stands out."""
 
 
-def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[Row]:
-    """Notice and instruction, wrapped into at least `LINES` rows of `columns`.
+_SENTENCE = re.compile(r"(?<=[.!?]) +")
+
+
+def sentences_in_rows(text: str, columns: int) -> list[str]:
+    """A text in rows of `columns`: broken between sentences where that takes no more rows."""
+    rows = wrapped(text, columns)
+    whole: list[str] = []
+    for sentence in _SENTENCE.split(text) if len(rows) > 1 else ():
+        if whole and cell_len(whole[-1]) + 1 + cell_len(sentence) <= columns:
+            whole[-1] += f" {sentence}"
+        else:
+            whole += wrapped(sentence, columns)
+    return whole if 0 < len(whole) <= len(rows) else rows
+
+
+def bar_rows(
+    guidance: Guidance,
+    columns: int,
+    *,
+    fresh: bool = False,
+    lines: int = LINES,
+    by_sentence: bool = True,
+) -> list[Row]:
+    """Notice and instruction, wrapped into at least `lines` rows of `columns`.
 
     The notice has rows of its own above the text, which stands where it would without one. A
     notice without an instruction, as at the end, is the text.
@@ -25,16 +55,46 @@ def bar_rows(guidance: Guidance, columns: int, *, fresh: bool = False) -> list[R
     if not guidance.text:
         guidance = Guidance(guidance.notice)
     wide = max(1, columns - 4)
-    rows: list[Row] = [((line, style),) for line in wrap(guidance.text, wide)]
-    above = max(0, LINES - len(rows) + 1) // 2
+    text = sentences_in_rows(guidance.text, wide) if by_sentence else wrapped(guidance.text, wide)
+    rows: list[Row] = [((line, style),) for line in text]
+    above = max(0, lines - len(rows) + 1) // 2
     if guidance.notice:
-        notice: list[Row] = [((f" {line} ", "notice"),) for line in wrap(guidance.notice, wide - 2)]
+        told = wrapped(guidance.notice, wide - 2)
+        notice: list[Row] = [((f" {line} ", "notice"),) for line in told]
         rows = [()] * (above - len(notice)) + notice + rows
     else:
         rows = [()] * above + rows
-    rows += [()] * (LINES - len(rows))
+    rows += [()] * (lines - len(rows))
     edge = "▌ " if fresh else "  "
     return [((edge, style), *row, (" " * columns, style)) for row in rows]
+
+
+def longest_guidance(phrases: Phrasebook, rooms: Iterable[str]) -> tuple[Guidance, ...]:
+    """The longest text of each level, in a building with these rooms, each with the longest
+    notice."""
+    notice = max(phrases.notices.values(), key=cell_len)
+    exit_room = ("Exit", "Room")
+    texts: list[tuple[Level, Tuples]] = []
+    for level in Level:
+        said = list(everything_said(level, rooms))
+        sentences = {one: phrases.render(level, (one,)) for one in said}
+        longest = sorted(said, key=lambda one: cell_len(sentences[one]))[::-1]
+        turn = next((one for one in longest if one[0] == "Turn"), None)
+        move = next(one for one in longest if one[0] not in ("Turn", "Stop", "Utilize"))
+        match level:
+            case Level.C1 if turn:
+                texts.append((level, (turn, move) * MOST_LEGS + (UTILIZE,)))
+            case Level.C2 if turn:
+                texts += [(level, (move, turn, move)), (level, (exit_room, move, move))]
+            case _:
+                texts.append((level, (move, next(one for one in longest if one[0] == "Triage"))))
+    return tuple(Guidance(phrases.render(*one), notice) for one in texts)
+
+
+def lines_needed(phrases: Phrasebook, rooms: Iterable[str], columns: int) -> int:
+    """How many rows the bar has, so that nothing said there changes its height."""
+    longest = longest_guidance(phrases, rooms)
+    return max(len(bar_rows(guidance, columns)) for guidance in longest)
 
 
 def announces(guidance: Guidance, before: Guidance) -> bool:
@@ -53,6 +113,7 @@ class InstructionBar(Canvas):
 
     def __init__(self) -> None:
         super().__init__([()] * LINES, id="bar")
+        self.lines = LINES
         self._guidance = Guidance("")
         self._fresh_until = 0.0
 
@@ -73,7 +134,15 @@ class InstructionBar(Canvas):
     def _draw(self) -> None:
         if self.size.width:
             fresh = self._fresh_until > 0
-            self.draw(bar_rows(self._guidance, self.size.width, fresh=fresh))
+            by_sentence = not isinstance(self.app, Program) or self.app.look > 1
+            rows = bar_rows(
+                self._guidance,
+                self.size.width,
+                fresh=fresh,
+                lines=self.lines,
+                by_sentence=by_sentence,
+            )
+            self.draw(rows)
 
     def on_resize(self) -> None:
         self._draw()

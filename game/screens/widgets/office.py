@@ -11,6 +11,7 @@ from game.screens.widgets.camera import Camera
 from game.screens.widgets.canvas import Row, Run
 from game.screens.widgets.glyphs import GlyphSet, Kind, player_kind, treated_kind, victim_kind
 from game.world.geometry import Cell, reach
+from game.world.labels import FILLER, spread
 from game.world.observation import Observation, VictimState
 from game.world.plan import Plan, Tile
 
@@ -78,7 +79,7 @@ def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
         ]
         if not ways and free:
             widest = max(free, key=lambda row: (_columns(free[row]), -abs(row - y)))
-            cut = _cut(room.name, _columns(free[widest]))
+            cut = _cut(spread(room.name), _columns(free[widest]))
             ways = [{widest: _nearest(cut, x, free[widest])}]
         at_home = (way for way in ways if all(_is_about(x, label) for label in way.values()))
         placed |= next(at_home, ways[0] if ways else {})
@@ -129,7 +130,8 @@ def _lay_over(runs: list[Run], label: Label, left: int) -> list[Run]:
         before, after = max(0, start - column), max(0, end - column)
         if before < len(text) and after > 0:
             name = label.text[max(0, column - start) : column + len(text) - start]
-            over += [(text[:before], style), (name, "label"), (text[after:], style)]
+            shown = name.replace(FILLER, "")
+            over += [(text[:before], style), (shown, "label"), (text[after:], style)]
         else:
             over.append((text, style))
         column += len(text)
@@ -140,10 +142,10 @@ def _lay_over(runs: list[Run], label: Label, left: int) -> list[Run]:
 def _wrappings(name: str) -> list[list[str]]:
     """A name in one line or broken in two between words, the narrowest way first: it has most
     room to stay where it is."""
-    words = name.split()
+    words = spread(name).split()
     cuts = range(1, len(words))
     broken = ([" ".join(words[:cut]), " ".join(words[cut:])] for cut in cuts)
-    return sorted([[name], *broken], key=lambda lines: max(map(len, lines)))
+    return sorted([[" ".join(words)], *broken], key=lambda lines: max(map(len, lines)))
 
 
 def _about(x: int, text: str) -> int:
@@ -185,7 +187,9 @@ def _free_floor(plan: Plan, cells: bytes, y: int) -> Iterator[tuple[int, int]]:
 
 
 def _cut(name: str, columns: int) -> str:
-    return name if len(name) <= columns else name[: columns - 1] + "…"
+    if len(name) <= columns:
+        return name
+    return name[: columns - 1 - (name[columns - 1] == FILLER)] + "…"
 
 
 def in_reach(observation: Observation) -> Cell | None:

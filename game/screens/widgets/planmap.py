@@ -42,7 +42,7 @@ class PlanMap(Canvas):
             name = names.get(room.name, "?" if room is asked else "")
             fitting = label_lines(name, room.cells) or label_lines(GIVEN, room.cells)
             for line in fitting if name else ():
-                for column, letter in enumerate(line.text, start=line.column):
+                for column, letter in line.letters:
                     pins[column, HALF_BLOCKS.down * line.row] = letter, style
         plan = self._building.plan
         everything = (1 << len(plan.tiles)) - 1

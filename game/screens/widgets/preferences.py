@@ -10,13 +10,18 @@ from typing import Literal
 import msgspec
 from platformdirs import user_config_path
 
+from game.world.variant import Difficulty, Victims
+
 Ground = Literal["dark", "light"]
 
 
 class Preferences(msgspec.Struct, frozen=True):
     """The last choices. `ground` is None while the user has not chosen one."""
 
-    building: Literal["harbour", "foundry", "practice"] = "harbour"
+    building: Literal["harbour", "foundry", "practice", "generated"] = "harbour"
+    """`generated` is another office each time."""
+    victims: Victims = "drawn"
+    difficulty: Difficulty = "standard"
     coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
     memorise: Literal[0, 60, 180] = 0

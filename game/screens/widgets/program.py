@@ -21,8 +21,7 @@ from game.errors import STATUS_DEFECT, AnaError, where
 from game.places import reports_folder
 from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal_driver import TerminalDriver
-from game.screens.widgets.theme import THEMES, theme_name
-from game.study.look import LOOK, Look
+from game.screens.widgets.theme import LOOK, THEMES, Look, theme_name
 
 
 class Program(App[None], inherit_bindings=False):

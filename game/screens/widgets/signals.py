@@ -36,3 +36,15 @@ def lead_out(note: Callable[[str], None], leave: Callable[[int], None]) -> None:
 
     for number in SIGNALS:
         signal.signal(number, go)
+
+
+def has_job_control() -> bool:
+    """Whether a shell waits that can continue this program after it was stopped: it then has a
+    process group of its own in the shell's session."""
+    return os.getpgrp() != os.getsid(0)
+
+
+def suspend_group() -> None:
+    """Stop this program and what started it with it, such as make, as Ctrl+Z does elsewhere. The
+    terminal is given back before, and taken again when the shell continues the program."""
+    os.kill(0, signal.SIGTSTP)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from game.mission_words import ENGLISH, MissionWords, Panel
 from game.screens.widgets.canvas import BLANK, Canvas, Row
 from game.screens.widgets.glyphs import HEADING_GLYPHS, HEADING_NAMES, SOLID, victim_kind
 from game.screens.widgets.office import in_reach
@@ -22,28 +23,31 @@ def clock_text(left_ms: int) -> str:
 
 
 def status_rows(
-    observation: Observation, settings: MissionSettings, columns: int, *, timed: bool = True
+    observation: Observation,
+    settings: MissionSettings,
+    columns: int,
+    *,
+    timed: bool = True,
+    words: MissionWords = ENGLISH,
 ) -> list[Row]:
     """The panel's lines, `columns` wide; the clock is blank where time does not matter."""
+    panel = words.panel
     return [
-        _clock(observation, columns) if timed else BLANK,
+        _clock(observation, panel) if timed else BLANK,
         _time_bar(observation, settings, columns) if timed else BLANK,
-        _counts(observation),
-        _reds(observation, settings) if timed else BLANK,
-        (
-            (HEADING_GLYPHS[observation.heading], "player"),
-            (f" facing {HEADING_NAMES[observation.heading]}", "quiet"),
-        ),
-        _doing(observation, columns),
+        _counts(observation, panel),
+        _reds(observation, settings, panel) if timed else BLANK,
+        _facing(observation, words),
+        _doing(observation, columns, words),
     ]
 
 
-def _clock(observation: Observation, columns: int) -> Row:
+def _clock(observation: Observation, panel: Panel) -> Row:
     left = observation.time_left_ms
     text = f" {clock_text(left)} "
     if left <= HURRY_MS:
-        return (text, "hurry"), (" left", "strong")
-    return (text, "clock"), (" left", "quiet")
+        return (text, "hurry"), (f" {panel.left}", "strong")
+    return (text, "clock"), (f" {panel.left}", "quiet")
 
 
 def _time_bar(observation: Observation, settings: MissionSettings, columns: int) -> Row:
@@ -57,23 +61,33 @@ def _time_bar(observation: Observation, settings: MissionSettings, columns: int)
     )
 
 
-def _counts(observation: Observation) -> Row:
-    rescued: Row = (("✓ ", "rescued"), (f"{observation.rescued} rescued", "strong"))
+def _counts(observation: Observation, panel: Panel) -> Row:
+    count = panel.rescued.replace("{count}", str(observation.rescued))
+    rescued: Row = (("✓ ", "rescued"), (count, "strong"))
     if observation.score is None:
         return rescued
-    return (*rescued, (f"  {observation.score} points", "quiet"))
+    points = panel.points.replace("{count}", str(observation.score))
+    return (*rescued, (f"  {points}", "quiet"))
 
 
-def _reds(observation: Observation, settings: MissionSettings) -> Row:
+def _reds(observation: Observation, settings: MissionSettings, panel: Panel) -> Row:
     left = min(settings.reds_expire_ms, settings.duration_ms) - observation.time_ms
     red = SOLID[victim_kind(Severity.RED, VictimState.WAITING)].text
     if left <= 0:
-        return (red, "seen-red"), (" out of time", "faint")
+        return (red, "seen-red"), (f" {panel.out_of_time}", "faint")
     style = "hurry" if left <= HURRY_MS else "quiet"
-    return (red, "red"), (" ", "quiet"), (f"{clock_text(left)} for reds", style)
+    time = panel.for_reds.replace("{time}", clock_text(left))
+    return (red, "red"), (" ", "quiet"), (time, style)
 
 
-def _doing(observation: Observation, columns: int) -> Row:
+def _facing(observation: Observation, words: MissionWords) -> Row:
+    heading = observation.heading
+    direction: str = getattr(words.directions, HEADING_NAMES[heading])
+    facing = words.panel.facing.replace("{direction}", direction)
+    return (HEADING_GLYPHS[heading], "player"), (f" {facing}", "quiet")
+
+
+def _doing(observation: Observation, columns: int, words: MissionWords) -> Row:
     treatment = observation.treatment
     if treatment is not None:
         mark = SOLID[victim_kind(treatment.severity, VictimState.WAITING)]
@@ -86,9 +100,9 @@ def _doing(observation: Observation, columns: int) -> Row:
             ("░" * (wide - done), "faint"),
         )
     if in_reach(observation) is not None:
-        return (" Space ", "key"), (" treats", "strong")
+        return (f" {words.keys.space} ", "key"), (f" {words.panel.treats}", "strong")
     if _nearly_in_reach(observation):
-        return (("stand beside to treat", "quiet"),)
+        return ((words.panel.stand_beside, "quiet"),)
     return ()
 
 
@@ -123,16 +137,19 @@ class StatusPanel(Canvas):
         "seen-red", "player", "progress", "key",
     }  # fmt: skip
 
-    def __init__(self, settings: MissionSettings) -> None:
+    def __init__(self, settings: MissionSettings, words: MissionWords = ENGLISH) -> None:
         super().__init__(id="status")
         self.timed = True
         self._settings = settings
+        self._words = words
         self._observation: Observation | None = None
 
     def show(self, observation: Observation) -> None:
         """Draw the numbers of now."""
         self._observation = observation
-        rows = status_rows(observation, self._settings, self.size.width, timed=self.timed)
+        rows = status_rows(
+            observation, self._settings, self.size.width, timed=self.timed, words=self._words
+        )
         if self.size.height == 1:
             rows = [(*rows[0], ("   ", "quiet"), *rows[2])]
         self.draw(rows)

@@ -7,12 +7,17 @@ first two exist in each look: a study keeps the one it was made with.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal
 
 from textual.theme import Theme
 
 from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal import colours, ground
-from game.study.look import LOOK, Look
+
+Look = Literal[1, 2]
+"""How the mission looks: a study keeps the look it was made with."""
+LOOK: Look = 2
+"""The look of today. In look 1, doors were filled, and reds and unseen floor had less contrast."""
 
 _DARK = {
     "dark": "#121316",

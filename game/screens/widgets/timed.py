@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from rich.cells import cell_len
+
 from game.screens.widgets.canvas import Canvas
 from game.screens.widgets.statuspanel import clock_text
 
@@ -28,7 +30,7 @@ class TimeLine(Canvas):
         gone = BAR_COLUMNS - BAR_COLUMNS * left_ms // self._limit_ms
         bar = ("━" * (BAR_COLUMNS - gone), "time"), ("─" * gone, "faint")
         clock = f" {clock_text(left_ms)} "
-        right = BAR_COLUMNS + 2 + len(clock) + 1 + len(self._left)
-        gap = " " * max(1, self.size.width - len(self._title) - right)
+        right = BAR_COLUMNS + 2 + len(clock) + 1 + cell_len(self._left)
+        gap = " " * max(1, self.size.width - cell_len(self._title) - right)
         title = (self._title, "title"), (gap, "title")
         self.draw([(*title, *bar, ("  ", "faint"), (clock, "clock"), (f" {self._left}", "quiet"))])

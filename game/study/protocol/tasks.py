@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.spec import CoachSpec
 from game.journal.records import Exposed, QuestionnaireAnswer, QuizAnswer
 from game.session.playing import begin_mission, leave_mission
@@ -213,8 +214,16 @@ class Playing:
 
     def begin(self) -> MissionRun:
         """Begin the mission, at 0 ms."""
-        self.run = begin_mission(self.journal, self.building, self.settings, self.spec, self._seed)
+        self.run = begin_mission(
+            self.journal, self.building, self.settings, self.spec, self._seed,
+            phrases=self.phrases,
+        )  # fmt: skip
         return self.run
+
+    @property
+    def phrases(self) -> Phrasebook:
+        """What the instructor says."""
+        return self._session.study.phrases
 
     @property
     def done(self) -> bool:

@@ -6,7 +6,6 @@ from hypothesis import strategies as st
 
 from game.coach.acts import Level
 from game.coach.instructions import Pose, correction, instruct
-from game.coach.instructions.notices import PASSED_DOOR, TOO_FAR, WRONG_WAY
 from game.world.geometry import Heading
 from tests.coach.instructions.office import goal_at, office, pose, poses, scene
 
@@ -18,15 +17,17 @@ START = pose(1, 6, E)
 @pytest.mark.parametrize(
     ("level", "now", "notice"),
     [
-        (Level.C2, pose(15, 6, E), PASSED_DOOR),
-        (Level.C1, pose(15, 6, E), TOO_FAR),
-        (Level.C3, pose(15, 6, E), ""),
-        (Level.C2, pose(8, 6, E), ""),
-        (Level.C2, pose(26, 10, S), WRONG_WAY),
-        (Level.C3, pose(26, 10, S), WRONG_WAY),
+        (Level.C2, pose(15, 6, E), "passed_door"),
+        (Level.C1, pose(15, 6, E), "too_far"),
+        (Level.C3, pose(15, 6, E), None),
+        (Level.C2, pose(8, 6, E), None),
+        (Level.C2, pose(26, 10, S), "wrong_way"),
+        (Level.C3, pose(26, 10, S), "wrong_way"),
     ],
 )
-def test_what_is_said_on_the_way_to_the_store_room(level: Level, now: Pose, notice: str) -> None:
+def test_what_is_said_on_the_way_to_the_store_room(
+    level: Level, now: Pose, notice: str | None
+) -> None:
     place = scene()
     instruction = instruct(place, START, goal_at(STORE_ROOM_BLUE), level)
     assert correction(place, instruction, now) == notice
@@ -46,11 +47,11 @@ def test_a_notice_is_true(start: Pose, now: Pose, goal: str, level: Level) -> No
     here = distances[office().plan.index(now.cell)]
     if now.cell in instruction.path:
         assert not notice
-    if notice == WRONG_WAY:
+    if notice == "wrong_way":
         assert here > distances[office().plan.index(start.cell)]
-    if notice in (PASSED_DOOR, TOO_FAR):
+    if notice in ("passed_door", "too_far"):
         assert instruction.shown_level < Level.C3
         assert here > min(distances[office().plan.index(cell)] for cell in instruction.path)
         assert any(now.cell[axis] == cell[axis] for cell in instruction.path for axis in (0, 1))
-    if notice == PASSED_DOOR:
+    if notice == "passed_door":
         assert any(office().plan.is_door(cell) for cell in instruction.path)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from game.coach.acts import Level
 from game.coach.instructions import Instruction, Pose, Scene, instruct
-from game.coach.instructions.c1 import MOST_STEPS
+from game.coach.instructions.vocabulary import MOST_STEPS
 from game.rescuers.literal import LiteralReader
 from game.rescuers.literal.grammar import Walk, WalkTo, parse
 from game.world import load_building

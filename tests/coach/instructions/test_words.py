@@ -9,11 +9,12 @@ from hypothesis import strategies as st
 
 from game.coach.acts import Level
 from game.coach.instructions import instruct
-from game.coach.instructions.text import render
+from game.coach.instructions.phrasebook_file import english
 from game.coach.instructions.vocabulary import MOST_COUNTED, THINGS, Tuple, belongs
 from game.rescuers.literal.grammar import parse
 from tests.coach.instructions.office import office, poses, scene
 
+render = english().render
 SIDES = ("left", "right")
 COUNTED = [
     f"{n} {thing} {side}"

@@ -14,16 +14,20 @@ from game.journal.reader import read_journal
 from game.journal.records import MissionAbandoned, RunRecord
 from game.screens.play.coachpanel import coach_pins, coach_rows
 from game.screens.play.mission_story import MissionStory, tell
-from game.screens.play.replay_screen import ReplayScreen, timeline_rows
+from game.screens.play.pathmap import END, victim_pin
+from game.screens.play.replay_screen import MARKS, ReplayScreen, timeline_rows
 from game.screens.play.result import result_rows
 from game.screens.widgets.canvas import plain
 from game.screens.widgets.charts import ChartStep
-from game.screens.widgets.minimap import QUARTER_BLOCKS, MiniMap, map_size
+from game.screens.widgets.glyphs import HEADING_ARROWS
+from game.screens.widgets.minimap import DOOR_SIGN, QUARTER_BLOCKS, MiniMap, map_size
 from game.session.playing import begin_mission, end_free_play, start_in_memory
 from game.session.replay import Replay
 from game.world import load_building
-from game.world.building import Building
+from game.world.building import Building, Severity, VictimSite
 from game.world.events import Expired, Rescued
+from game.world.observation import VictimState
+from game.world.picture import VICTIM_SIGNS
 from game.world.settings import MissionSettings
 from tests.screens.pilots import Open, press, shown, until
 
@@ -70,7 +74,7 @@ def test_a_mission_left_at_once_gives_no_victim_away(
     story = tell(replay)
     assert story.left and not story.revealed
     page = "\n".join(plain(result_rows(story, columns, rows, filled=True)))
-    assert "The victims you had not seen are not shown" in page
+    assert "unseen victims are not shown" in page
     assert not {"●", "○"} & set(page)
     everything = "\n".join(plain(result_rows(whole(story), columns, rows, filled=True)))
     assert {"●", "○"} & set(everything)
@@ -174,7 +178,7 @@ async def test_the_replay_says_what_space_does_now(
         replay = await until(pilot, ReplayScreen)
         assert " Space  stop" in shown(replay) and "▶ playing" in shown(replay)
         await press(pilot, "space")
-        assert " Space  play" in shown(replay) and "■ stopped" in shown(replay)
+        assert " Space  play" in shown(replay) and "‖ stopped" in shown(replay)
 
 
 async def test_the_whole_building_is_on_the_map_of_a_replay(open_app: Open, tmp_path: Path) -> None:
@@ -187,3 +191,25 @@ async def test_the_whole_building_is_on_the_map_of_a_replay(open_app: Open, tmp_
             columns, rows = map_size(harbour.plan, QUARTER_BLOCKS)
             shown_map = replay.query_one(MiniMap)
             assert shown_map.size.width >= columns and shown_map.size.height >= rows
+
+
+SITE = VictimSite("v01", (1, 1), Severity.RED)
+
+
+def test_one_sign_has_one_meaning_on_every_map_and_time_line() -> None:
+    """A sign is a victim, the rescuer's way, an event or a door, and never two of them."""
+    meanings = {
+        "waiting": set(VICTIM_SIGNS.values()),
+        "ended": {
+            victim_pin(SITE, state)[0] for state in (VictimState.RESCUED, VictimState.EXPIRED)
+        },
+        "heading": set(HEADING_ARROWS.values()),
+        "finish": {END[0]},
+        "door": {DOOR_SIGN},
+        "new level": {MARKS[LevelChanged][0]},
+        "likely": set("0123456789"),
+    }
+    signs = [sign for group in meanings.values() for sign in group]
+    assert len(signs) == len(set(signs))
+    assert {MARKS[Rescued][0], MARKS[Expired][0]} == meanings["ended"]
+    assert [VICTIM_SIGNS[kind] for kind in (Severity.RED, Severity.BLUE)] == ["●", "○"]

@@ -11,10 +11,14 @@ from pathlib import Path
 import pytest
 
 from game.coach.spec import parse_coach
+from game.journal.clock import SystemClock
 from game.journal.reader import read_journal
 from game.rescuers.catalogue import LITERAL, character
 from game.rescuers.driver import drive
+from game.screens.play.app import AnaApp
 from game.screens.play.benchmark import literal_rescues
+from game.screens.play.home import HomeScreen
+from game.screens.play.journal_list import JournalsScreen, history_rows
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.mission_story import MissionStory, tell
 from game.screens.play.past_missions import (
@@ -30,7 +34,7 @@ from game.screens.play.result_card import card_svg, card_text
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Notice
-from game.session.playing import end_free_play, start_in_memory
+from game.session.playing import end_free_play, start_free_play, start_in_memory
 from game.session.replay import Replay
 from game.world import load_building
 from game.world.building import Building
@@ -191,3 +195,54 @@ async def test_what_was_reached_before_comes_up_by_itself(open_app: Open) -> Non
                 await asyncio.sleep(0.02)
             page = " ".join(shown(result).split())
             assert told in page and "literal reader rescues" in page
+
+
+def test_a_bar_stands_for_each_finished_mission_of_a_person() -> None:
+    missions = [
+        past(10, 3), past(20, 1), past(15, 2, coach="ana"), past(9, 4, ended=False),
+        past(19, 5, rescuer="literal"),
+    ]  # fmt: skip
+    rows = history_rows(missions, missions[0].journal, 60, 4)
+    drawn = plain(rows)
+    assert "Rescued" in drawn[0] and drawn[1].split()[0] == "20"
+    bottom = [(text.strip(), style) for text, style in rows[4] if "█" in text]
+    assert bottom == [("██", "area"), ("██", "faint"), ("██", "bar")], "the oldest first"
+    many = history_rows([past(n % 20, n) for n in range(100)], None, 60, 4)
+    assert all(width(row) <= 60 for row in many)
+
+
+async def test_the_history_shows_missions_and_leads_to_their_results(
+    open_app: Open, tmp_path: Path
+) -> None:
+    for _ in range(2):
+        async with open_app(duration_ms=1_000) as (_, pilot):
+            await until(pilot, ResultScreen)
+    async with open_app(AnaApp.show_home, duration_ms=1_000) as (_, pilot):
+        await until(pilot, HomeScreen)
+        await press(pilot, "r")
+        journals = await until(pilot, JournalsScreen)
+        for _ in range(500):
+            if "Rescued, mission by mission" in shown(journals):
+                break
+            await asyncio.sleep(0.02)
+        assert "Ward · static C1 · 0 rescued · 1 s" in shown(journals)
+        await press(pilot, "down", "r")
+        result = await until(pilot, ResultScreen)
+        assert result.journal == newest_journals(tmp_path)[1]
+
+
+async def test_home_says_what_was_reached_in_such_a_mission(open_app: Open, tmp_path: Path) -> None:
+    rules = MissionSettings(duration_ms=1_000)
+    spec, building = parse_coach("ana"), load_building("harbour")
+    clock = SystemClock()
+    run, journal = start_free_play(building, rules, spec, 1, tmp_path, None, clock=clock)
+    end_free_play(run, journal, 1_000)
+    async with open_app(AnaApp.show_home, duration_ms=1_000) as (_, pilot):
+        home = await until(pilot, HomeScreen)
+        for _ in range(500):
+            if "best 0, last time 0" in shown(home):
+                break
+            await asyncio.sleep(0.02)
+        assert "best 0, last time 0" in shown(home)
+        await press(pilot, "down", "right")
+        assert "best" not in shown(home), "not in this building"

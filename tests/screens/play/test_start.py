@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -14,18 +15,20 @@ from game.journal.reader import read_journal
 from game.journal.records import Paused
 from game.screens.play.app import AnaApp, PlayOptions
 from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
-from game.screens.play.home import HomeScreen
+from game.screens.play.home import BUILDINGS, HomeScreen, menu_items, menu_rows
 from game.screens.play.map_screen import MapScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import width
 from game.screens.widgets.dialogs import Help, TooSmall
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.preferences import Preferences
 from game.session.playing import start_in_memory
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
 from game.world.settings import FREE_PLAY, MissionSettings
+from game.world.variant import Variant, day_seed, varied
 from tests.screens.pilots import Open, painted, press, shown, until
 
 
@@ -192,10 +195,64 @@ async def test_the_map_can_be_left_early_and_its_time_stands_still_when_covered(
 async def test_back_from_the_map_begins_nothing(open_app: Open, tmp_path: Path) -> None:
     async with open_app(AnaApp.show_home) as (_, pilot):
         home = await until(pilot, HomeScreen)
-        await press(pilot, "down", "down", "down", "right")
+        home._select("memorise")
+        await press(pilot, "right")
         assert home.preferences.memorise == 60
         await press(pilot, "p")
         await until(pilot, MapScreen)
         await press(pilot, "escape")
         await until(pilot, HomeScreen)
         assert not list(tmp_path.glob("*/journal.jsonl"))
+
+
+async def test_a_seed_is_typed_at_home_and_shown_before_the_mission(open_app: Open) -> None:
+    async with open_app(AnaApp.show_home) as (app, pilot):
+        home = await until(pilot, HomeScreen)
+        await press(pilot, "down", "left")
+        assert home.preferences.building == "generated"
+        await press(pilot, "1", "2", "3", "backspace", "enter")
+        card = await until(pilot, StartScreen)
+        assert "Seed 12" in painted(card)
+        options = app._options
+        assert options is not None and options.building == load_building("generated:12")
+        after = options.again()
+        assert after.building == load_building("generated:13") and after.about == "Seed 13"
+
+
+async def test_people_and_difficulty_are_chosen_at_home(open_app: Open) -> None:
+    async with open_app(AnaApp.show_home) as (app, pilot):
+        home = await until(pilot, HomeScreen)
+        for action in ("victims", "difficulty"):
+            home._select(action)
+            await press(pilot, "right")
+        await press(pilot, "7", "p")
+        card = await until(pilot, StartScreen)
+        page = painted(card)
+        assert "victims of seed 7, hard" in page and "25 people" in page and "3:30" in page
+        options = app._options
+        assert options is not None
+        drawn = load_building("harbour")
+        assert options.building == varied(drawn, Variant("seeded", "hard"), 7)
+        assert options.again().building == varied(drawn, Variant("seeded", "hard"), 8)
+
+
+async def test_the_mission_of_the_day_is_the_same_again(open_app: Open) -> None:
+    async with open_app(AnaApp.show_home) as (app, pilot):
+        home = await until(pilot, HomeScreen)
+        home._select("today")
+        await press(pilot, "enter")
+        card = await until(pilot, StartScreen)
+        seed = day_seed(datetime.now(UTC))
+        assert f"Mission of the day {seed}" in painted(card)
+        options = app._options
+        assert options is not None and options.building == load_building(f"generated:{seed}")
+        assert options.again().building == options.building
+        assert options.again().seed == options.seed
+
+
+def test_every_choice_fits_the_smallest_window() -> None:
+    for building in BUILDINGS:
+        chosen = Preferences(building=building)  # type: ignore[arg-type]
+        items = menu_items(chosen, "best 19, last time 17", "123456789")
+        rows = menu_rows(items, 0)
+        assert len(rows) <= 24 - 6 and all(width(row) <= 80 for row in rows)

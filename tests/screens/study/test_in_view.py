@@ -19,7 +19,7 @@ from game.screens.study.likert import LikertScreen
 from game.screens.study.rehearsal import Make, _Showing, painted
 from game.screens.study.sheet import SheetScreen
 from game.screens.study.sliders import TYPED_S, SlidersScreen
-from game.study.look import LOOK
+from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Asked, Sheet
 from game.study.study_settings import ScreenSize

@@ -1,8 +1,7 @@
 """The colours of every theme can be told apart: by everybody, by a protanope, and in greyscale.
 
 Contrast is that of WCAG 2.1: (L1 + .05) / (L2 + .05) of relative luminances, all that is left in
-greyscale. Protanopia and deuteranopia are simulated as by Machado, Oliveira and Fernandes (2009),
-severity 1.
+greyscale. Colour blindness is simulated as by Machado, Oliveira and Fernandes (2009), severity 1.
 """
 
 import pytest

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from textwrap import wrap
 
 import pytest
 from hypothesis import assume, given, settings
@@ -13,7 +14,14 @@ from game.coach.acts import PosteriorEvaluated
 from game.screens.play.coachpanel import gauge
 from game.screens.widgets.canvas import Row, difference, padded, plain, sliced, width, wrapped
 from game.screens.widgets.charts import ChartStep, area_chart, step_chart
-from game.screens.widgets.instruction_bar import FLASH_S, LINES, InstructionBar, announces, bar_rows
+from game.screens.widgets.instruction_bar import (
+    FLASH_S,
+    LINES,
+    InstructionBar,
+    announces,
+    bar_rows,
+    sentences_in_rows,
+)
 from game.screens.widgets.minimap import HALF_BLOCKS, QUARTER_BLOCKS, Scale, SmallMap
 from game.screens.widgets.statuspanel import clock_text, next_change_ms, status_rows
 from game.world import load_building
@@ -53,6 +61,30 @@ def test_the_bar_is_always_whole(
     told = " ".join(line[:columns] for line in plain(drawn)).replace("▌", " ").split()
     assert told == [*notice, *text]
     assert len(drawn) >= LINES
+
+
+@given(words, st.integers(60, 200))
+def test_the_bar_breaks_between_sentences_where_that_takes_no_more_rows(
+    text: list[str], columns: int
+) -> None:
+    sentences = [f"{word.capitalize()} {word}." for word in text]
+    rows, plainly = (
+        sentences_in_rows(" ".join(sentences), columns),
+        wrap(" ".join(sentences), columns),
+    )
+    assert " ".join(rows) == " ".join(plainly)
+    assert len(rows) == len(plainly)
+    whole = [row for row in rows if row.endswith(".")]
+    assert len(whole) >= len([row for row in plainly if row.endswith(".")])
+
+
+def test_a_sentence_begins_on_a_row_of_its_own() -> None:
+    told = "Turn around. Walk forward 12 steps. Turn left. Walk forward 7 steps. Turn right."
+    assert sentences_in_rows(told, 60) == [
+        "Turn around. Walk forward 12 steps. Turn left.",
+        "Walk forward 7 steps. Turn right.",
+    ]
+    assert wrap(told, 60)[0].endswith("Walk forward")
 
 
 def test_two_lines_at_80_columns_leave_the_bar_its_height() -> None:

@@ -1,0 +1,60 @@
+"""The languages that a new study can begin with: English, and one folder for each translation.
+
+A folder holds the texts, the questions and the instructions, as a study folder does, and
+`rooms.toml`: the names of the shipped buildings' rooms.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable
+from importlib import resources
+
+from game.errors import AnaError, choose_from
+from game.world import load_building
+
+ENGLISH = "en"
+ROOMS = "rooms.toml"
+_HERE = resources.files("game.study.languages")
+_ROOM = re.compile(r"^(\S = room )(.+?)(?=\s*$)", re.MULTILINE)
+
+
+def languages() -> tuple[str, ...]:
+    """What can be chosen."""
+    return ENGLISH, *sorted(it.name for it in _HERE.iterdir() if (it / ROOMS).is_file())
+
+
+class Translation:
+    """Everything that participants read, in a language other than English.
+
+    Raises AnaError for a language that there is not.
+    """
+
+    def __init__(self, language: str) -> None:
+        if language not in languages():
+            also = "; docs/lab.md tells how to translate a study yourself"
+            hint = choose_from(language, languages(), also)
+            raise AnaError(f"there is no translation '{language}'", place="--language", hint=hint)
+        self._folder = _HERE / language
+
+    @property
+    def rooms(self) -> dict[str, str]:
+        """The names of the shipped buildings' rooms, by their English names."""
+        text = (self._folder / ROOMS).read_text(encoding="utf-8")
+        return {english: str(name) for english, name in tomllib.loads(text).items()}
+
+    def files(self, buildings: Iterable[str]) -> dict[str, str]:
+        """The files of a study folder, by name: the texts, and `buildings` with rooms renamed."""
+        texts = {
+            it.name: it.read_text(encoding="utf-8")
+            for it in self._folder.iterdir()
+            if it.name.endswith(".toml") and it.name != ROOMS
+        }
+        return texts | {
+            f"{name}.txt": self._renamed(load_building(name).text) for name in buildings
+        }
+
+    def _renamed(self, building: str) -> str:
+        rooms = self.rooms
+        return _ROOM.sub(lambda found: found[1] + rooms[found[2]], building)
