@@ -8,8 +8,6 @@ from typing import Protocol
 
 import click
 
-from analysis.battery import analyse_source
-from analysis.sources.source import holds_live_sessions
 from analysis.stats.level import ALPHA
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
@@ -66,6 +64,9 @@ def command(
     A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
+    from analysis.battery import analyse_source
+    from analysis.sources.source import holds_live_sessions
+
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
 
