@@ -238,7 +238,10 @@ def test_a_line_that_drops_for_five_seconds_finds_the_running_program(
         tab.press("enter")
         time.sleep(5)
         tab.forget()
+        tab.resize(390, 844)
         wire.mend()
+        tab.wait_for_notice(words.too_small.title)
+        tab.resize(1366, 768)
         tab.wait_for_notice("")
         until(lambda: bool(tab.chunks))
         tab.wait_for(MAP)
@@ -264,6 +267,25 @@ def test_keys_pressed_while_the_line_stalls_keep_their_order(
         tab.press("space")
         wire.hold(back=False)
         tab.wait_for("All keys work")
+        tab.close()
+
+
+@pytest.mark.slow
+def test_a_line_that_falls_silent_is_given_up_and_found_again(
+    served: Served, chromium: Chromium, words: BrowserWords
+) -> None:
+    with Wire(served.port) as wire:
+        tab = chromium.tab()
+        tab.open(served.link("P14").replace(served.address, wire.address))
+        tab.wait_for(READY)
+        programs = served.programs("P14")
+        wire.hold(back=True)
+        tab.wait_for_notice(words.interrupted.title)
+        wire.hold(back=False)
+        tab.wait_for_notice("")
+        tab.press("up", "down", "left", "right", "space")
+        tab.wait_for("All keys work")
+        assert served.programs("P14") == programs != []
         tab.close()
 
 
