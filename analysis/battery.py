@@ -272,11 +272,10 @@ def analyse_source(
         found = Found(result.results, result.study, result.randomised, read.recorded, PUBLISHED)
         write_report(
             manuscript(found),
-            result.study.label,
+            result.study,
             [*result.problems, *result.notes],
             made,
             report,
-            simulated=result.study.simulated,
         )
     return result
 

@@ -9,6 +9,7 @@ participant and instructor with `victims`, the four mental states, the four Like
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -52,6 +53,11 @@ class StudyData:
             if column in table.columns and bool(table[column].notna().any()):
                 return True
         return False
+
+    @cached_property
+    def by_round(self) -> pd.DataFrame:
+        """The rounds with a row a participant; columns are (measure, static or adaptive)."""
+        return self.rounds.pivot(index="participant", columns="adaptivity")
 
     def need_groups(self) -> None:
         """Raise Refusal where there are no knowledge groups."""
@@ -182,8 +188,8 @@ class Paired:
 
 def both_rounds(study: StudyData, outcome: str) -> pd.DataFrame:
     """Columns static and adaptive of one outcome by participant, listwise (no NaN)."""
-    wide = study.rounds.pivot(index="participant", columns="adaptivity", values=outcome)
-    return wide.reindex(columns=list(ADAPTIVITY)).dropna()
+    columns = pd.MultiIndex.from_product([[outcome], ADAPTIVITY])
+    return study.by_round.reindex(columns=columns).droplevel(0, axis=1).dropna()
 
 
 def paired(study: StudyData, outcome: str) -> Paired:

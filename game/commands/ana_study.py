@@ -71,6 +71,8 @@ def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> No
         f"  ana study check {folder}\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
+    if language != "en":
+        click.echo("This is a first translation: let a native speaker read it before you use it.")
 
 
 @study_group.command("design", short_help="Show what is crossed, and what it can find.")

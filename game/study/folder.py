@@ -272,7 +272,10 @@ def new_study(
             _write_new(folder / name, text)
         _write_new(folder / INSTRUCTIONS, english().text)
         if translation is not None:
-            for name, text in translation.files(_BUILDINGS.values()).items():
+            for name, text in translation.texts.items():
+                if (folder / name).exists():
+                    _write_new(folder / name, text)
+            for name, text in translation.buildings(_BUILDINGS.values()).items():
                 _write_new(folder / name, text)
     except OSError as error:
         raise StudyError(

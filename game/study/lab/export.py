@@ -23,7 +23,7 @@ from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
 from game.journal.records import StudyMode
 from game.journal.sink import make_folders
-from game.study.folder import LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
+from game.study.folder import INSTRUCTIONS, LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
 from game.study.lab.anonymous import anonymised
 from game.study.lab.psychds import (
     IGNORE_FILES,
@@ -190,6 +190,8 @@ def _described(
     files[DESCRIPTION] = description(settings.name, summary + handling.told(), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, forms.name):
         files[f"materials/{material}"] = (folder / material).read_bytes()
+    if (folder / INSTRUCTIONS).exists():
+        files[f"materials/{INSTRUCTIONS}"] = (folder / INSTRUCTIONS).read_bytes()
     return files | _versions(folder)
 
 
@@ -252,9 +254,9 @@ def _readme(name: str, summary: str, handling: _Handling) -> str:
 - `data/raw/`: the journals that everything here was made from. Answers in participants' own words
   are emptied; every other complete line is unchanged. The journals contain the time of day.
 - `documentation/`: the codebook, as text and as a table.
-- `materials/`: the study's settings, and every text and question as participants saw it. In
-  `materials/{VERSIONS}/` every version of them, and every building; the numbers in the names begin
-  their SHA-256.
+- `materials/`: the study's settings, and every text, question and instruction as participants saw
+  it. In `materials/{VERSIONS}/` every version of them, and every building; the numbers in the names
+  begin their SHA-256.
 
 {tables}
 """
