@@ -75,6 +75,19 @@ def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> No
         click.echo("This is a first translation: let a native speaker read it before you use it.")
 
 
+@study_group.command("design", short_help="Show what is crossed, and what it can find.")
+@_FOLDER
+def print_design(folder: Path) -> None:
+    """Print the design of the study DIR: design cells, how often each comes, the power for the
+    primary outcomes, and which of the paper's tests it supports. Nobody's allocation is shown."""
+    from game.study.folder import open_study
+    from game.study.lab.design_text import design_lines
+
+    study = open_study(folder)
+    for line in design_lines(study.settings, study.forms):
+        click.echo(line)
+
+
 @study_group.command("forms", short_help="Print ready forms to copy from.")
 @click.argument("name", required=False, metavar="[NAME]")
 def print_form(name: str | None) -> None:
