@@ -117,6 +117,25 @@ def steps_beside(room: Room) -> list[Cell]:
     return [cell for cell in room.cells if abs(cell[0] - x) <= 1 and 2 <= abs(cell[1] - y) <= 4]
 
 
+@settings(max_examples=25)
+@given(walks, st.sampled_from(["図書室", "第2 会議室", "コンピューター室とても長い名前"]))
+def test_names_in_wide_characters_shift_nothing(actions: list[Action], name: str) -> None:
+    renamed = replace(
+        HARBOUR,
+        rooms=tuple(
+            replace(room, name=f"{name}{number}") for number, room in enumerate(HARBOUR.rooms)
+        ),
+    )
+    observation = walked(renamed, actions)
+    size = observation.plan.width, observation.plan.height
+    camera = Camera.centred(40, 20, observation.position, size)
+    shown = [line_row(line, camera, PLAIN) for line in window_lines(observation, camera)]
+    nameless = replace(observation, rooms=())
+    without = [line_row(line, camera, PLAIN) for line in window_lines(nameless, camera)]
+    assert [width(row) for row in shown] == [width(row) for row in without]
+    assert "\0" not in "".join(plain(shown))
+
+
 def test_a_name_keeps_its_place_while_it_fits_there() -> None:
     room = HARBOUR.room("Test Lab")
     places = set()
