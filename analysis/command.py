@@ -8,8 +8,6 @@ from typing import Protocol
 
 import click
 
-from analysis.battery import analyse_source
-from analysis.sources.source import holds_live_sessions
 from analysis.stats.level import ALPHA
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
@@ -66,8 +64,15 @@ def command(
     A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
+    from analysis.battery import analyse_source
+    from analysis.sources.source import holds_live_sessions, is_study_source
+    from analysis.sources.study_folder import mode_of
+
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
+
+    if is_study_source(source):
+        game.refuse_unlike_ledger(source, mode_of(source, mode))
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):
