@@ -21,12 +21,13 @@ from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
-from game.screens.play.result import STILL_S, ResultScreen
+from game.screens.play.result import ResultScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.canvas import Canvas, width
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question, TooSmall
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.stillness import STILL_S
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
