@@ -319,3 +319,16 @@ async def test_the_screen_tells_nothing_but_the_observation(
             view = mission.view
             pictures.append([view.office.rows, view.minimap.rows, view.status.rows])
     assert pictures[0] == pictures[1]
+
+
+@pytest.mark.parametrize(
+    ("size", "large"), [((80, 24), False), ((120, 40), False), ((160, 50), True), ((200, 60), True)]
+)
+async def test_cells_are_large_where_there_is_room(
+    open_app: Open, size: tuple[int, int], large: bool
+) -> None:
+    async with open_app(size=size) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        office = mission.view.office
+        player = [run[0] for row in office.rows for run in row if run[1] == "player"]
+        assert (len(player), {len(text) for text in player}) == ((2, {4}) if large else (1, {2}))
