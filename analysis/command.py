@@ -65,10 +65,14 @@ def command(
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
     from analysis.battery import analyse_source
-    from analysis.sources.source import holds_live_sessions
+    from analysis.sources.source import holds_live_sessions, is_study_source
+    from analysis.sources.study_folder import mode_of
 
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
+
+    if is_study_source(source):
+        game.refuse_unlike_ledger(source, mode_of(source, mode))
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):

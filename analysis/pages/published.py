@@ -1,4 +1,4 @@
-"""The paper's printed numbers (shipped under data/paper), recomputed from its printed F.
+"""The paper's printed numbers (analysis/paper), recomputed from its printed F.
 
 With one within factor of two levels Wilks' lambda is 1/(1 + F df1/df2), so lambda, p and partial
 eta squared follow from F and its degrees of freedom, and the printed ones can be checked.
@@ -11,9 +11,8 @@ from scipy import stats
 
 from analysis.sources.absent import SourceError
 
-_PACKED = Path(__file__).resolve().parents[1] / "paper"
-#: In an installed package the tables lie inside it, in the repository under data/paper.
-PUBLISHED = _PACKED if _PACKED.is_dir() else Path(__file__).resolve().parents[2] / "data" / "paper"
+#: The folder of the printed numbers; data/paper in the repository is a link to it.
+PUBLISHED = Path(__file__).resolve().parents[1] / "paper"
 ANOVA_FILE = "anova.csv"
 POSTHOC_FILE = "posthoc.csv"
 STUDY_FILE = "study.csv"

@@ -6,10 +6,13 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 
-from analysis.pages.apa_table import html_of, write_tables
+from analysis.pages.apa_table import html_of, unmarked, write_tables
 from analysis.pages.manuscript import Section, figures_in, tables_of
+from analysis.pages.notebook import Shown, show
+from analysis.pages.other_programs import write_for_other_programs
 from analysis.pages.style import SIMULATED, VERMILION, Captioned, save_figures
 from analysis.sources.absent import plain
+from analysis.sources.frames import StudyData
 from analysis.sources.provenance import Provenance
 
 STYLE = """
@@ -30,21 +33,21 @@ dt { font-weight: bold } dd { margin: 0 0 .4em 1.5em; overflow-wrap: anywhere }
 
 def write_report(
     sections: Sequence[Section],
-    label: str,
+    study: StudyData,
     notes: Sequence[str],
     made: Provenance,
     folder: Path,
-    *,
-    simulated: bool,
 ) -> Path:
-    """Write `results.html`, `tables/`, `figures/` and `provenance.json` into a folder.
+    """Write `results.html`, `tables/`, `figures/`, `data/` and `provenance.json` into a folder;
+    `study` is the analysed sample.
 
     Raises OSError where they cannot be written.
     """
-    for part in ("tables", "figures"):
+    for part in ("tables", "figures", "data"):
         (folder / part).mkdir(parents=True, exist_ok=True)
     write_tables(list(tables_of(sections)), folder / "tables")
     save_figures(list(figures_in(sections)), folder / "figures", made.line())
+    write_for_other_programs(study, folder / "data")
     values, _ = plain(made.row())
     text = json.dumps(values, indent=1, ensure_ascii=False) + "\n"
     (folder / "provenance.json").write_text(text, encoding="utf-8")
@@ -53,7 +56,7 @@ def write_report(
         figure.name: (folder / "figures" / f"{figure.name}.svg").read_bytes()
         for figure in figures_in(sections)
     }
-    text = html_page(sections, images, label, notes, made, simulated=simulated)
+    text = html_page(sections, images, study.label, notes, made, simulated=study.simulated)
     page.write_text(text, encoding="utf-8")
     return page
 
@@ -84,7 +87,9 @@ def html_page(
         f"<title>Results: {escape(label)}</title>\n<style>{style}</style>\n"
         f"<h1>Results: {escape(label)}</h1>\n{warning}\n"
         "<p>In the order of the paper’s sections 5.3 to 5.5; “paper” marks its printed numbers. "
-        "The tables are also in <code>tables/</code>, the figures in <code>figures/</code>.</p>\n"
+        "The tables are also in <code>tables/</code>, the figures in <code>figures/</code>; "
+        "<code>data/</code> has the sample for JASP, jamovi and R, and an R script of the main "
+        "tests.</p>\n"
         f"{body}{listed}{_provenance_html(made)}</html>\n"
     )
 
@@ -121,3 +126,21 @@ def _provenance_html(made: Provenance) -> str:
     }
     items = "".join(f"<dt>{name}</dt><dd>{escape(text)}</dd>" for name, text in rows.items())
     return f"<h2>Where this comes from</h2><dl>{items}</dl>\n"
+
+
+def show_section(section: Section) -> Shown:
+    """One section in a notebook."""
+    sentences = "".join(f"<p>{html_of(sentence)}</p>" for sentence in section.sentences)
+    figures = "".join(show(figure).html for figure in section.figures)
+    tables = "".join(table.html() for table in section.tables)
+    told = "\n".join(map(unmarked, section.sentences))
+    html = f"<h2>{escape(section.title)}</h2>{sentences}{figures}{tables}"
+    return Shown(html, f"{section.title}\n{told}")
+
+
+def show_table(sections: Sequence[Section], name: str) -> Shown:
+    """The table of this name in a notebook. Raises KeyError where there is none."""
+    found = next((one for one in tables_of(sections) if one.table.name == name), None)
+    if found is None:
+        raise KeyError(name)
+    return Shown(found.html(), found.csv())

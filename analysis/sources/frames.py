@@ -9,6 +9,7 @@ participant and instructor with `victims`, the four mental states, the four Like
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -16,7 +17,15 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from analysis.sources.absent import Refusal, SourceError
-from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE, LIKERT_ITEMS, RANGES
+from analysis.sources.factors import (
+    ADAPTIVITY,
+    COMPLEXITY,
+    KNOWLEDGE,
+    LIKERT_ITEMS,
+    PAPER,
+    RANGES,
+)
+from game.tables.asked import Outcomes
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
@@ -31,6 +40,12 @@ class StudyData:
     label: str
     simulated: bool = False
     notes: tuple[str, ...] = ()
+    asked: Outcomes = PAPER
+
+    @property
+    def outcomes(self) -> tuple[str, ...]:
+        """What is analysed: victims, the mental states, and what is computed from the answers."""
+        return ("victims", *self.asked.mental_states, *self.asked.composites)
 
     def has(self, column: str) -> bool:
         """Whether the source knows this column of `participants` or `rounds` at all."""
@@ -38,6 +53,11 @@ class StudyData:
             if column in table.columns and bool(table[column].notna().any()):
                 return True
         return False
+
+    @cached_property
+    def by_round(self) -> pd.DataFrame:
+        """The rounds with a row a participant; columns are (measure, static or adaptive)."""
+        return self.rounds.pivot(index="participant", columns="adaptivity")
 
     def need_groups(self) -> None:
         """Raise Refusal where there are no knowledge groups."""
@@ -66,7 +86,12 @@ class StudyData:
 
 
 def make_study(
-    participants: pd.DataFrame, rounds: pd.DataFrame, *, label: str, simulated: bool = False
+    participants: pd.DataFrame,
+    rounds: pd.DataFrame,
+    *,
+    label: str,
+    simulated: bool = False,
+    asked: Outcomes = PAPER,
 ) -> StudyData:
     """Check the two tables, add `preference`, and put their rows in order.
 
@@ -87,14 +112,16 @@ def make_study(
             f"{label}: participant {first['participant']} has more than one row for the "
             f"{first['adaptivity']} round; keep one"
         )
-    for column, (least, most) in RANGES.items():
-        _check_range(keyed[column], column, least, most, label)
+    for column, (least, most) in (RANGES | dict(asked.ranges)).items():
+        if column in keyed.columns:
+            _check_range(keyed[column], column, least, most, label)
+    if "preference" not in rounds.columns:
+        rounds = rounds.assign(preference=rounds[list(LIKERT_ITEMS)].sum(axis=1, skipna=False))
     ordered = rounds.assign(
-        preference=rounds[list(LIKERT_ITEMS)].sum(axis=1, skipna=False),
         adaptivity=pd.Categorical(rounds["adaptivity"], ADAPTIVITY, ordered=True),
     ).sort_values(["participant", "adaptivity"], ignore_index=True)
     ordered["adaptivity"] = ordered["adaptivity"].astype(str)
-    study = StudyData(participants.sort_index(), ordered, label, simulated)
+    study = StudyData(participants.sort_index(), ordered, label, simulated, asked=asked)
     counts = ordered["participant"].value_counts()
     single = sorted(str(who) for who in counts.index[counts < len(ADAPTIVITY)])
     if single:
@@ -161,8 +188,8 @@ class Paired:
 
 def both_rounds(study: StudyData, outcome: str) -> pd.DataFrame:
     """Columns static and adaptive of one outcome by participant, listwise (no NaN)."""
-    wide = study.rounds.pivot(index="participant", columns="adaptivity", values=outcome)
-    return wide.reindex(columns=list(ADAPTIVITY)).dropna()
+    columns = pd.MultiIndex.from_product([[outcome], ADAPTIVITY])
+    return study.by_round.reindex(columns=columns).droplevel(0, axis=1).dropna()
 
 
 def paired(study: StudyData, outcome: str) -> Paired:

@@ -3,7 +3,7 @@
 from typing import Literal
 
 import numpy as np
-from scipy import stats
+from scipy import special, stats
 
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.frames import Floats, Paired
@@ -78,4 +78,4 @@ def _hc3_test(model: CellModel, variances: Floats, hypothesis: Floats) -> Row:
         return {"F": flat, "p": flat}
     gap = hypothesis @ model.means
     f = float(gap @ np.linalg.solve(spread, gap)) / len(hypothesis)
-    return {"F": f, "p": float(stats.f.sf(f, len(hypothesis), model.df))}
+    return {"F": f, "p": float(special.fdtrc(len(hypothesis), model.df, f))}

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
@@ -83,7 +83,7 @@ class Contrast:
         """Half the length of that interval."""
         if isinstance(self.se, Absent):
             return self.se
-        return float(stats.t.ppf((1 + level) / 2, self.df)) * self.se
+        return float(special.stdtrit(self.df, (1 + level) / 2)) * self.se
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ class CellModel:
         q = len(hypothesis)
         ss = self.sum_of_squares(hypothesis)
         f = ss / q / (self.sse / self.df)
-        return FTest(q, self.df, ss, self.sse, f, float(stats.f.sf(f, q, self.df)))
+        return FTest(q, self.df, ss, self.sse, f, float(special.fdtrc(q, self.df, f)))
 
     def sum_of_squares(self, hypothesis: Floats) -> float:
         """SS = (L m)' (L D L')^-1 (L m), for no empty cell."""
@@ -166,7 +166,7 @@ class CellModel:
             return Contrast(estimate, none, self.df, none, none, spread)
         se = float(np.sqrt(self.sse / self.df * spread))
         t = estimate / se
-        p = float(2 * stats.t.sf(abs(t), self.df))
+        p = 2 * float(special.stdtr(self.df, -abs(t)))
         return Contrast(estimate, se, self.df, t, p, spread)
 
 

@@ -5,7 +5,7 @@ The noncentrality of partial eta squared is df2 eta/(1 - eta), as in `analysis.s
 
 from collections.abc import Callable
 
-from scipy import optimize, special, stats
+from scipy import optimize, special
 
 from analysis.sources.absent import Refusal
 
@@ -27,7 +27,7 @@ def _noncentral_f(f: float, df1: int, df2: int, below: float) -> float:
     def gap(noncentrality: float) -> float:
         return float(special.ncfdtr(df1, df2, noncentrality, f)) - below
 
-    if float(stats.f.cdf(f, df1, df2)) <= below:
+    if float(special.fdtr(df1, df2, f)) <= below:
         return 0.0
     top = max(1.0, f * df1)
     while gap(top) > 0:

@@ -1,7 +1,7 @@
 """Least squares with columns added to a base: the incremental F test, and one added slope."""
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import Floats
@@ -26,7 +26,7 @@ def added_columns(y: Floats, base: Floats, extra: Floats) -> FTest:
     error = float(both @ both)
     ss = max(0.0, float(alone @ alone) - error)
     f = ss / df1 / (error / df2)
-    return FTest(df1, df2, ss, error, f, float(stats.f.sf(f, df1, df2)))
+    return FTest(df1, df2, ss, error, f, float(special.fdtrc(df1, df2, f)))
 
 
 def added_slope(y: Floats, base: Floats, column: Floats) -> Contrast:

@@ -14,8 +14,8 @@ from game.screens.widgets.office import Line, line_rows, window_lines
 from game.screens.widgets.program import Program
 from game.world.observation import Observation
 
-LARGE_FROM = Size(100, 46)
-"""From this size on, cells are large: 25 x 23 of them are in view, more than twice the sight."""
+LARGE_FROM = Size(80, 46)
+"""From this size on, cells are large: 20 x 23 of them are in view, nearly twice the sight."""
 
 
 class OfficeView(Canvas):

@@ -211,7 +211,18 @@ def test_the_same_input_gives_the_same_bytes_but_for_the_date(
         one, other = (tree[name].decode() for tree in trees)
         assert one.replace(dates[0][0], dates[1][0]) == other
     kinds = {Path(name).suffix for name in trees[0]}
-    assert kinds == {".html", ".json", ".csv", ".tex", ".docx", ".svg", ".pdf", ".png", ".txt"}
+    assert kinds == {
+        ".html",
+        ".json",
+        ".csv",
+        ".tex",
+        ".docx",
+        ".svg",
+        ".pdf",
+        ".png",
+        ".txt",
+        ".R",
+    }
     page = trees[0]["results.html"].decode()
     assert "SIMULATED PEOPLE" in page and "2023-11-14" in page
     assert "http" not in re.sub(r"data:image/svg\+xml;base64,[\w+/=]+", "", page)

@@ -1,0 +1,47 @@
+"""The analysed sample for JASP, jamovi and R, and an R script that repeats the main tests."""
+
+import csv
+import io
+from pathlib import Path
+
+import pandas as pd
+
+from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS, OUTCOMES
+from analysis.sources.frames import StudyData
+
+SCRIPT = Path(__file__).with_name("main_tests.R")
+#: What is known of a person, in the order of the columns.
+PERSON = ("knowledge", "complexity", "quiz_static", "order", "memorise_minutes",
+          "preferred_instructor")  # fmt: skip
+
+
+def wide_csv(study: StudyData) -> str:
+    """One row a participant, as those programs want repeated measures: `engagement_static` and
+    `engagement_adaptive`. A missing answer is an empty cell."""
+    people = study.participants
+    measures = [(name, part) for name in (*OUTCOMES, *LIKERT_ITEMS) for part in ADAPTIVITY]
+    rounds = study.by_round.reindex(people.index)
+    rounds = rounds.reindex(columns=pd.MultiIndex.from_tuples(measures))
+    known = [column for column in PERSON if study.has(column)]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["participant", *known, *(f"{name}_{part}" for name, part in measures)])
+    for who, person, answers in zip(
+        people.index, people[known].to_numpy(), rounds.to_numpy(), strict=True
+    ):
+        writer.writerow([who, *map(_cell, person), *map(_cell, answers)])
+    return out.getvalue()
+
+
+def write_for_other_programs(study: StudyData, folder: Path) -> None:
+    """Write `wide.csv` and `main_tests.R` into a folder that exists."""
+    (folder / "wide.csv").write_text(wide_csv(study), encoding="utf-8")
+    (folder / SCRIPT.name).write_bytes(SCRIPT.read_bytes())
+
+
+def _cell(value: object) -> str:
+    if pd.isna(value):  # type: ignore[call-overload]
+        return ""
+    if isinstance(value, float):
+        return f"{value:.15g}"
+    return str(value)
