@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
 import click
 
-from analysis.battery import analyse_source
+from analysis.battery import analyse_source, preregister
 from analysis.sources.source import holds_live_sessions
 from analysis.stats.level import ALPHA
 from game.errors import AnaError
@@ -37,6 +39,8 @@ _PATH = click.Path(path_type=Path)
 @click.option("--json", "out", type=_PATH, metavar="OUT.json", help="Write all numbers there.")
 @click.option("--report", type=_PATH, metavar="DIR",
               help="Write a results section in the paper's order into DIR.")  # fmt: skip
+@click.option("--prereg", type=_PATH, metavar="FILE",
+              help="Write the planned analysis of a study to FILE (.md, .docx).")  # fmt: skip
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
 @click.option("--mode", type=click.Choice(STUDY_MODES),
@@ -51,6 +55,7 @@ def command(
     source: Path,
     out: Path | None,
     report: Path | None,
+    prereg: Path | None,
     figures: Path | None,
     quiz: Path | None,
     mode: StudyMode | None,
@@ -66,6 +71,13 @@ def command(
     A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
+    if prereg is not None:
+        if out or report or figures:
+            raise click.UsageError("--prereg reads no data: give it without --json or --report.")
+        with _writing(prereg):
+            preregister(source, prereg, alpha)
+        click.echo(f"The planned analysis stands in {prereg}")
+        return 0
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
 
@@ -73,7 +85,7 @@ def command(
         if holds_live_sessions(source, mode):
             click.echo(game.unblind(source), err=True, nl=False)
 
-    try:
+    with _writing(out or report):
         result = analyse_source(
             source,
             quiz,
@@ -87,16 +99,23 @@ def command(
         )
         if out is not None:
             out.write_text(result.to_json(), encoding="utf-8")
-    except OSError as error:
-        raise AnaError(
-            f"the results cannot be written ({error.strerror})",
-            place=str(error.filename or out or report),
-            hint="Give a file or folder in a folder that exists and that you may write to.",
-        ) from error
     click.echo(result.table())
     if report is not None:
         click.echo(f"Open {report / 'results.html'}")
     return result.exit_status
+
+
+@contextmanager
+def _writing(place: Path | None) -> Iterator[None]:
+    """Raise AnaError for what cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        raise AnaError(
+            f"the results cannot be written ({error.strerror})",
+            place=str(error.filename or place),
+            hint="Give a file or folder in a folder that exists and that you may write to.",
+        ) from error
 
 
 def _tell(done: int, of: int) -> None:

@@ -9,6 +9,13 @@ from typing import Any
 import pandas as pd
 
 from analysis.pages.apa_table import ApaTable, Numbered
+from analysis.pages.choices import (
+    other_tests,
+    prior_table,
+    specification_figure,
+    survival,
+    trimmed_table,
+)
 from analysis.pages.figures import (
     adaptivity_estimates,
     cells_figure,
@@ -23,6 +30,7 @@ from analysis.pages.sentences import (
     alpha_sentence,
     anova_sentence,
     bounded_interval,
+    factor,
     gain_sentence,
     interval,
     level_sentence,
@@ -31,13 +39,16 @@ from analysis.pages.sentences import (
 )
 from analysis.pages.style import SIMULATED, Captioned
 from analysis.pages.traces import all_traces, fig10_traces
-from analysis.sources.absent import Absent, attempt
+from analysis.sources.absent import Absent, Row, attempt
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.apa import DASH, MINUS, bounded, decimal, p_value, share
 from analysis.stats.level import percent
 from analysis.stats.preferred import preferred_rows
+from analysis.stats.robust import PERMUTATIONS
+from analysis.stats.specifications import specification_rows
+from game.tables.exclusions import read_rules
 
 Numbers = Mapping[str, Any]
 
@@ -552,7 +563,73 @@ def robustness(found: Found) -> Part:
             tuple(samples),
         ),
     ]
-    return "Beyond the paper", sentences, tables, []
+    more, figures = _checks(found)
+    return "Beyond the paper", sentences, [*tables, *more], figures
+
+
+def _checks(found: Found) -> tuple[list[ApaTable], list[Captioned]]:
+    """Tests that assume less, other priors, and the specification curve."""
+    study, alpha = found.study, found.alpha
+    ci = f"{percent(1 - alpha)} CI"
+    tests = attempt(other_tests, study)
+    tested = [] if isinstance(tests, Absent) else tests.reset_index().to_dict("records")
+    priors = prior_table(study)
+    specifications = specification_rows(found.randomised, read_rules())
+    tables = [
+        ApaTable(
+            "other_tests",
+            "Effects of adaptivity by HC3 and by permutation",
+            ("Outcome", "Effect", "*F*", "*F* HC3", "*p* HC3", "*p* permutation"),
+            tuple(
+                (row["outcome"], row["effect"], decimal(row["F"]), decimal(row["F (HC3)"]),
+                 p_value(row["p (HC3)"]), p_value(row["p (permutation)"]))
+                for row in tested
+            ),
+            f"{PERMUTATIONS} permutations of the residuals of the model without the effect.",
+        ),
+        ApaTable(
+            "trimmed",
+            "Adaptive − static by 20% trimmed means",
+            ("Outcome", "*n*", "Trimmed *M*", ci, "*t*", "*df*", "*p*"),
+            tuple(
+                (row["outcome"], str(row["n"]), decimal(row["estimate"]),
+                 interval(row["lower.CL"], row["upper.CL"]), decimal(row["t"]), str(row["df"]),
+                 p_value(row["p"]))
+                for row in map(_numbers, trimmed_table(study, alpha))
+            ),
+            "People count equally.",
+        ),
+        ApaTable(
+            "priors",
+            "Bayes factors of adaptive − static by the scale of the prior",
+            ("Outcome", *(f"*{name[0]}*{name[1:]}" for name in priors.columns)),
+            tuple(
+                (str(outcome), *(DASH if isinstance(value, Absent) else factor(value)
+                                 for value in values))
+                for outcome, values in zip(priors.index, priors.to_numpy(), strict=True)
+            ),
+            "*BF*₁₀, JZS prior; above 1 is evidence for a difference, below 1 for none.",
+        ),
+        ApaTable(
+            "specifications",
+            "The three-way effect on engagement over all specifications",
+            ("Choice", "Option", "Specifications", f"Share with *p* < {bounded(alpha, 2)}",
+             "Greatest *p*"),
+            tuple(
+                (row["choice"], row["option"], str(row["specifications"]),
+                 bounded(row["below alpha"], 2), p_value(row["greatest p"]))
+                for row in map(_numbers, survival(specifications, alpha))
+            ),
+            "Every combination of sample, grouping of knowledge, model, and correction over the "
+            "four mental states.",
+        ),
+    ]  # fmt: skip
+    figure = specification_figure(specifications, simulated=study.simulated, alpha=alpha)
+    return tables, [figure]
+
+
+def _numbers(row: Row) -> Numbers:
+    return row
 
 
 PARTS: tuple[Callable[[Found], Part], ...] = (

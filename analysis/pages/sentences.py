@@ -117,7 +117,7 @@ def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:
         f"{'equivalent' if tost < alpha else 'not shown to be equivalent'} (two one-sided tests, "
         f"{p_phrase(tost)})"
     )
-    bayes = "" if row["bf10_jzs_r0707"] is None else f"; *BF*₁₀ = {_factor(row['bf10_jzs_r0707'])}"
+    bayes = "" if row["bf10_jzs_r0707"] is None else f"; *BF*₁₀ = {factor(row['bf10_jzs_r0707'])}"
     return (
         f"Counting people equally, {OUTCOME_WORDS[outcome]} differed by "
         f"{decimal(row['mean_diff'])} between adaptive and static instruction, "
@@ -127,7 +127,8 @@ def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:
     )
 
 
-def _factor(value: float) -> str:
+def factor(value: float) -> str:
+    """A Bayes factor, in powers of ten where it is far from 1."""
     return decimal(value) if 0.01 <= value < 1e4 else f"{value:.2e}"
 
 
