@@ -7,7 +7,7 @@ from pathlib import Path
 
 from analysis.report import summary
 from analysis.sources.absent import Absent, Leaf, Plain, Row, Tree, attempt, plain
-from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.sources.provenance import provenance
 from analysis.sources.samples import left_by
@@ -18,6 +18,7 @@ from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.cellmodel import contrast_row, weights_of
 from analysis.stats.clustering import Clustering
+from analysis.stats.composites import composite_rows
 from analysis.stats.corrections import PValue, holm_by_name
 from analysis.stats.equivalence import paired_row
 from analysis.stats.groups import group_shares, grouped
@@ -93,6 +94,7 @@ def run_battery(
 ) -> BatteryResult:
     """Run everything on the sample that the primary exclusion rule leaves of all randomised; tests
     are judged at `alpha` and intervals are made for it."""
+    rules = rules.known_to(list(randomised.participants.columns))
     sample = left_by(randomised, rules.main())
     study, clustering = grouped(sample.study)
     notes = list(study.notes)
@@ -100,7 +102,7 @@ def run_battery(
         notes.append(
             f"the source has no column {rules.main().column}: it is taken as the analysed sample"
         )
-    pairs = {outcome: attempt(paired, study, outcome) for outcome in OUTCOMES}
+    pairs = {outcome: attempt(paired, study, outcome) for outcome in study.outcomes}
     anovas = {
         outcome: pair if isinstance(pair, Absent) else attempt(mixed_anova, pair)
         for outcome, pair in pairs.items()
@@ -112,7 +114,7 @@ def run_battery(
     by_outcome: dict[str, Tree] = {
         outcome: outcome_rows(study, outcome, pairs[outcome], anovas[outcome], alpha)
         | {"adaptivity_tests": tests[outcome]}
-        for outcome in OUTCOMES
+        for outcome in study.outcomes
     }
     tree: Row = {
         "source": {
@@ -120,16 +122,19 @@ def run_battery(
             "simulated": study.simulated,
             "n_randomised": len(randomised.participants),
             "n_analysed": len(study.participants),
-            "exclusion_rule": rules.primary,
+            "exclusion_rule": rules.main().name,
             "alpha_level": alpha,
             "groups": "stated" if sample.study.has("knowledge") else "formed from quiz_static",
         },
         "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
         "alpha": alpha_rows(study, alpha),
         "outcomes": by_outcome,
-        "holm_across_mental_states": holm_across({state: anovas[state] for state in MENTAL_STATES}),
+        "holm_across_mental_states": holm_across(
+            {state: anovas[state] for state in study.asked.mental_states}
+        ),
         "preferred_instructor": attempt(preferred_rows, study, alpha),
         "ordinal": ordinal_rows(study),
+        "composites": composite_rows(study),
         "order_and_building": order_rows(study, alpha),
         "sensitivity": {
             "exclusions": exclusion_rows(randomised, rules),
@@ -137,7 +142,7 @@ def run_battery(
             if not isinstance(clustering, Absent) and not sample.study.has("knowledge")
             else Absent("the groups are not formed from quiz scores"),
             "continuous_score": {
-                outcome: attempt(continuous_rows, study, outcome) for outcome in OUTCOMES
+                outcome: attempt(continuous_rows, study, outcome) for outcome in study.outcomes
             },
         },
         "power": power_rows(group_shares(study)),
@@ -240,7 +245,7 @@ def analyse_source(
     """
     read = load(source, quiz, mode, check=check, tick=tick)
     loaded()
-    rules = read_rules()
+    rules = read_rules().known_to(list(read.study.participants.columns))
     result = run_battery(read.study, rules, alpha)
     made = provenance(
         source,
@@ -248,7 +253,7 @@ def analyse_source(
         mode,
         {
             "alpha": alpha,
-            "exclusion_rule": rules.primary,
+            "exclusion_rule": rules.main().name,
             "verified": check and is_study_folder(source),
         },
         {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED},
@@ -288,9 +293,12 @@ def preregister(source: Path, out: Path, alpha: float = ALPHA) -> None:
     """
     from analysis.pages.preregistration import settings_file, write_preregistration
 
+    path = settings_file(source)
     rules = read_rules()
-    settings: dict[str, Leaf] = {"alpha": alpha, "exclusion_rule": rules.primary}
-    made = provenance(settings_file(source), None, None, settings, {})
+    if not (path.parent / "forms.toml").is_file():
+        rules = rules.known_to(())  # no forms, no attention checks
+    settings: dict[str, Leaf] = {"alpha": alpha, "exclusion_rule": rules.main().name}
+    made = provenance(path, None, None, settings, {})
     write_preregistration(source, out, rules, alpha, made)
 
 

@@ -10,8 +10,6 @@ from typing import Protocol
 
 import click
 
-from analysis.battery import analyse_source, preregister
-from analysis.sources.source import holds_live_sessions
 from analysis.stats.level import ALPHA
 from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
@@ -71,6 +69,9 @@ def command(
     A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
+    from analysis.battery import analyse_source, preregister
+    from analysis.sources.source import holds_live_sessions
+
     if prereg is not None:
         if out or report or figures:
             raise click.UsageError("--prereg reads no data: give it without --json or --report.")

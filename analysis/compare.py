@@ -9,12 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, Protocol
 
 import click
-import pandas as pd
-from scipy.stats import qmc
 
-from analysis.pages.coaches import comparison_figure, comparison_rows, comparison_text
-from analysis.sources.absent import Row, plain
-from analysis.stats.comparison import LOW_UP_TO, MED_UP_TO, compared
 from game.errors import AnaError
 
 COACHES = "static:1,static:2,static:3,ana,ana:calibrated,knowledge"
@@ -36,16 +31,28 @@ def _names(_ctx: click.Context, _option: click.Parameter, value: str | None) -> 
     return None if value is None else [name for it in value.split(",") if (name := it.strip())]
 
 
+def _listed(names: str) -> Callable[[click.Context, click.Parameter, str], list[str]]:
+    """Offers a shell the names that could come next in a list with commas."""
+
+    def offer(_ctx: click.Context, _option: click.Parameter, typed: str) -> list[str]:
+        before, comma, begun = typed.rpartition(",")
+        return [f"{before}{comma}{it}" for it in names.split(",") if it.startswith(begun)]
+
+    return offer
+
+
 @click.command(name="compare")
 @click.pass_obj
 @click.option("--coaches", default=COACHES, show_default=True, callback=_names, metavar="K,...",
+              shell_complete=_listed(f"{COACHES},ana:belief,knowledge+quiz,truth,pace"),
               help="Kinds of coach, ana:PRESET, static:LEVEL, knowledge+quiz, truth (told what "
               "people know) or FILE.py:CLASS.")  # fmt: skip
-@click.option("--worlds", callback=_names, metavar="W,...",
+@click.option("--worlds", callback=_names, metavar="W,...", shell_complete=_listed(WORLDS),
               help="Kinds of people: names or TOML files.  "
               f"[default: {WORLDS}; none with --hypercube]")  # fmt: skip
-@click.option("--buildings", default=BUILDINGS, show_default=True, callback=_names, metavar="B,...",
-              help="Names or files.")  # fmt: skip
+@click.option("--buildings", default=BUILDINGS, show_default=True, callback=_names,
+              metavar="B,...", shell_complete=_listed(BUILDINGS),
+              help="Names, generated:SEED or files.")  # fmt: skip
 @click.option("--people", type=click.IntRange(1), metavar="N",
               help="Persons in each world and building.  "
               f"[default: {PEOPLE}; {PEOPLE_A_DRAW} with --hypercube]")  # fmt: skip
@@ -81,6 +88,13 @@ def command(
     level that is best for each knowledge group, and to ANA. The people are simulated: this tells
     about coaches and assumptions, not about people.
     """
+    import pandas as pd
+    from scipy.stats import qmc
+
+    from analysis.pages.coaches import comparison_rows, comparison_text
+    from analysis.sources.absent import Row, plain
+    from analysis.stats.comparison import LOW_UP_TO, MED_UP_TO, compared
+
     if worlds is None:
         worlds = [] if hypercube else WORLDS.split(",")
     if not (coaches and buildings and (worlds or hypercube)):
@@ -156,6 +170,8 @@ def _make(folder: Path) -> None:
 
 
 def _draw(folder: Path, parts: list[Any]) -> None:
+    from analysis.pages.coaches import comparison_figure
+
     _make(folder)
     for number, part in enumerate(parts):
         drawn = comparison_figure(part)

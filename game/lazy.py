@@ -29,19 +29,33 @@ class LazyCommand(click.Command):
         try:
             return cast(click.Command, getattr(import_module(module), attribute))
         except ModuleNotFoundError as error:
-            missing = error.name or ""
-            if missing.partition(".")[0] in ("", *OURS):
-                raise
-            raise AnaError(
-                f"this command needs the Python package {missing}, which is not installed",
-                place=f"ana {self.name}",
-                hint="In the source folder run `make test`, which installs everything, or "
-                "`pip install --require-hashes --requirement requirements/all.txt`",
-            ) from error
+            raise _not_installed(error, self.name) from error
+
+
+def _not_installed(error: ModuleNotFoundError, command: str | None) -> Exception:
+    """What to raise where a package is missing: the error itself if it is one of ours."""
+    missing = error.name or ""
+    if missing.partition(".")[0] in ("", *OURS):
+        return error
+    return AnaError(
+        f"this command needs the Python package {missing}, which is not installed",
+        place=f"ana {command}",
+        hint="In the source folder run `make test`, which installs everything, or "
+        "`pip install --require-hashes --requirement requirements/all.txt`",
+    )
 
 
 class LazyGroup(click.Group):
-    """A group that imports only the subcommand it runs, and lists its subcommands in order."""
+    """A group that imports only the subcommand it runs, and lists its subcommands in order.
+
+    A subcommand imports what not everybody has when it runs, so that its help can be read without.
+    """
+
+    def invoke(self, ctx: click.Context) -> object:
+        try:
+            return super().invoke(ctx)
+        except ModuleNotFoundError as error:
+            raise _not_installed(error, ctx.invoked_subcommand) from error
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(self.commands)

@@ -131,6 +131,34 @@ def test_a_closed_pipe_is_quiet() -> None:
     assert (run.returncode, run.stderr) == (1, b"")
 
 
+NOT_IN_THE_GAME_TIER = (
+    "aiohttp", "dask", "matplotlib", "numpy", "pandas", "pingouin", "scipy", "statsmodels",
+    "textual_serve",
+)  # fmt: skip
+
+
+def test_every_help_can_be_read_where_only_the_game_is_installed() -> None:
+    """A process without the other packages shows the help of every command and subcommand."""
+    program = f"""
+import sys
+for name in {NOT_IN_THE_GAME_TIER!r}:
+    sys.modules[name] = None
+import click
+from game.cli import ana, main
+from game.lazy import LazyCommand
+def helped(words, command):
+    assert main([*words, "--help"]) == 0, words
+    command = command.load() if isinstance(command, LazyCommand) else command
+    for name, under in getattr(command, "commands", {{}}).items():
+        helped([*words, name], under)
+helped([], ana)
+"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (run.returncode, run.stderr) == (0, "")
+    for command in ("play", "analyse", "compare", "study new", "study serve", "building show"):
+        assert f"Usage: ana {command}" in run.stdout
+
+
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_script(shell: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SHELL", f"/bin/{shell}")
@@ -148,7 +176,24 @@ def test_completion_of_an_unknown_shell(capsys: Capture, monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    ("words", "expected"), [("ana doc", ["doctor"]), ("ana doctor --j", ["--json"])]
+    ("words", "expected"),
+    [
+        ("ana doc", ["doctor"]),
+        ("ana doctor --j", ["--json"]),
+        ("ana play --building ha", ["harbour"]),
+        ("ana play --building gen", ["generated:"]),
+        ("ana play --coach yo", ["yoked"]),
+        ("ana play --preset cal", ["calibrated"]),
+        ("ana play --difficulty h", ["hard"]),
+        ("ana play --victims s", ["seeded"]),
+        ("ana play --set controls=t", ["controls=turn"]),
+        ("ana play --set moves", ["moves_per_second=5.0"]),
+        ("ana watch --rescuer new", ["newcomer"]),
+        ("ana building show foun", ["foundry"]),
+        ("ana simulate out --population has", ["hasty"]),
+        ("ana compare --worlds default,ha", ["default,hasty"]),
+        ("ana compare --buildings harbour,f", ["harbour,foundry"]),
+    ],
 )
 def test_the_shell_gets_its_completions(words: str, expected: list[str]) -> None:
     env = os.environ | {

@@ -8,8 +8,11 @@ from pathlib import Path
 import pytest
 
 from game.cli import main
-from game.commands.ana_play import assigned, options_of
+from game.coach.spec import parse_coach
+from game.commands.ana_play import assigned, only_journal, options_of
 from game.errors import AnaError
+from game.journal.folders import JOURNAL
+from game.session.playing import end_free_play, start_in_memory
 from game.world import load_building
 from game.world.placing import placed_anew
 from game.world.settings import MissionSettings
@@ -85,8 +88,8 @@ def test_any_setting_can_be_set() -> None:
         ("moves_per_second", "not KEY=VALUE"),
         ("move_per_second=3", "Did you mean moves_per_second"),
         ("speed=3", "Choose from duration_ms"),
-        ("moves_per_second=fast", "cannot be 'fast'"),
-        ("moves_per_second=0", "between 0.5 and 100"),
+        ("moves_per_second=fast", "must be a number from 0.5 to 100, not 'fast'"),
+        ("moves_per_second=0", "from 0.5 to 100, not '0'"),
         ("controls=mouse", "compass or turn"),
     ],
 )
@@ -105,7 +108,10 @@ def test_a_bad_setting_is_named(assignment: str, told: str) -> None:
         (["--level", "1"], "--coach static"),
         (["--today", "--seed", "3"], "--today: the seed of the mission of the day is the date"),
         (["--difficulty", "harsh"], "easy"),
-        (["--minutes", "0"], "--minutes: duration_ms"),
+        (["--minutes", "0"], "--minutes: a mission lasts from a second to 60 minutes, not 0"),
+        (["--minutes", "nan"], "--minutes: a mission lasts"),
+        (["--set", "duration_ms=1.5"], "must be a whole number from 1000 to 3600000, not '1.5'"),
+        (["--set", "show_score=maybe"], "must be true or false, not 'maybe'"),
         (["--minuts", "1"], "--minutes"),
         ([], "not a terminal"),
     ],
@@ -120,3 +126,29 @@ def test_a_mistake_ends_with_status_2(
 def test_a_rescuer_is_chosen_by_name(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["watch", "--rescuer", "newcommer"]) == 2
     assert "Did you mean newcomer?" in capsys.readouterr().err
+
+
+class TestReplayOfAFolder:
+    def session(self, folder: Path) -> Path:
+        run, journal = start_in_memory(
+            load_building("practice"), MissionSettings(), parse_coach("static", 1), 1,
+            rescuer="literal", path=folder / JOURNAL,
+        )  # fmt: skip
+        end_free_play(run, journal, 0)
+        return folder / JOURNAL
+
+    def test_is_that_of_its_session(self, tmp_path: Path) -> None:
+        journal = self.session(tmp_path / "only")
+        assert only_journal(tmp_path / "only") == only_journal(tmp_path) == journal
+
+    def test_with_several_sessions_is_refused(self, tmp_path: Path) -> None:
+        self.session(tmp_path / "one")
+        self.session(tmp_path / "two")
+        with pytest.raises(AnaError, match=r"2 sessions in this folder.*the newest is"):
+            only_journal(tmp_path)
+
+    def test_without_a_session_is_refused(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        assert main(["replay", str(tmp_path)]) == 2
+        assert "there is no journal in this folder" in capsys.readouterr().err

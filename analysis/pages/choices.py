@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 
 from analysis.pages.style import BLUE, INK, SHADE, TWO_COLUMNS, Captioned, captioned, quiet_style
 from analysis.sources.absent import Absent, Row, attempt
-from analysis.sources.factors import OUTCOMES
 from analysis.sources.frames import StudyData, paired
 from analysis.stats.apa import bounded
 from analysis.stats.assumptions import assumption_rows, hc3_rows
@@ -95,7 +94,7 @@ def assumption_table(study: StudyData) -> pd.DataFrame:
     """Levene's (median) and Shapiro and Wilk's tests, a row an outcome. Raises Refusal without
     groups."""
     rows = []
-    for outcome in OUTCOMES:
+    for outcome in study.outcomes:
         found = assumption_rows(paired(study, outcome))
         rows.append(
             {
@@ -119,7 +118,7 @@ def other_tests(study: StudyData) -> pd.DataFrame:
     """Each within-person effect by HC3 and by permutation, a row an outcome and effect. Raises
     Refusal without groups."""
     rows = []
-    for outcome in OUTCOMES:
+    for outcome in study.outcomes:
         pair = paired(study, outcome)
         robust, permuted = attempt(hc3_rows, pair), attempt(permutation_rows, pair)
         if isinstance(robust, Absent) or isinstance(permuted, Absent):
@@ -135,14 +134,14 @@ def other_tests(study: StudyData) -> pd.DataFrame:
 
 def trimmed_table(study: StudyData, alpha: float = ALPHA) -> list[Row]:
     """adaptive - static by 20% trimmed means, a row an outcome that allows it."""
-    found = {outcome: attempt(trimmed_row, study, outcome, alpha) for outcome in OUTCOMES}
+    found = {outcome: attempt(trimmed_row, study, outcome, alpha) for outcome in study.outcomes}
     return [{"outcome": name, **row} for name, row in found.items() if not isinstance(row, Absent)]
 
 
 def prior_table(study: StudyData) -> pd.DataFrame:
     """BF10 of adaptive - static: a row an outcome, a column a scale of the prior."""
     rows = {}
-    for outcome in OUTCOMES:
+    for outcome in study.outcomes:
         found = attempt(prior_rows, study, outcome)
         if not isinstance(found, Absent):
             rows[outcome] = {f"r = {float(str(row['prior_scale'])):.3f}": row["bf10"]
@@ -164,7 +163,7 @@ def order_table(study: StudyData) -> pd.DataFrame:
 def score_table(study: StudyData) -> pd.DataFrame:
     """The tests with the quiz score itself in place of the groups, effects of adaptivity alone."""
     parts = []
-    for outcome in OUTCOMES:
+    for outcome in study.outcomes:
         rows = attempt(continuous_rows, study, outcome)
         if not isinstance(rows, Absent):
             parts += [{"outcome": outcome, **row} for row in rows if "adapt" in str(row["effect"])]

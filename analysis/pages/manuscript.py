@@ -1,6 +1,7 @@
 """A results section in the paper's order: every number and figure of its sections 5.3 to 5.5, ours
 beside the printed, with ready-made sentences and tables in APA form."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,7 @@ from analysis.pages.figures import (
     fig7_mental_states,
     fig8_performance,
     fig9_adaptivity,
+    first_state,
 )
 from analysis.pages.preference import preferred_figure, preferred_table, statements_figure
 from analysis.pages.published import ANOVA_FILE, POSTHOC_FILE, STUDY_FILE, printed
@@ -40,7 +42,7 @@ from analysis.pages.sentences import (
 from analysis.pages.style import SIMULATED, Captioned
 from analysis.pages.traces import all_traces, fig10_traces
 from analysis.sources.absent import Absent, Row, attempt
-from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.apa import DASH, MINUS, bounded, decimal, p_value, share
@@ -88,8 +90,13 @@ class Found:
 
     def effect(self, outcome: str, effect: str) -> Numbers | None:
         """One line of an outcome's ANOVA, or None where there is no ANOVA."""
-        rows = self.numbers["outcomes"][outcome]["anova"]
+        rows = self.own(outcome)["anova"]
         return next((row for row in rows or () if row["effect"] == effect), None)
+
+    def own(self, outcome: str) -> Numbers:
+        """The numbers of an outcome; all of them are None where the study does not ask for it."""
+        numbers: Numbers = self.numbers["outcomes"].get(outcome, defaultdict(lambda: None))
+        return numbers
 
 
 Part = tuple[str, list[str], list[ApaTable], list[Captioned]]
@@ -245,8 +252,8 @@ def mental_states(found: Found) -> Part:
     )
     every = [
         (state, row["knowledge"], row["contrast"].replace("-", MINUS), *_contrast_cells(row))
-        for state in MENTAL_STATES
-        for row in found.numbers["outcomes"][state][_WITHIN] or ()
+        for state in found.study.asked.mental_states
+        for row in found.own(state)[_WITHIN] or ()
         if row["adaptivity"] == "static"
     ]
     tables = [
@@ -277,7 +284,7 @@ _GAINS = "posthoc_diff_knowledge_within_complexity"
 def _level_row(
     found: Found, outcome: str, knowledge: str, greater: str, less: str
 ) -> Numbers | None:
-    for row in found.numbers["outcomes"][outcome][_WITHIN] or ():
+    for row in found.own(outcome)[_WITHIN] or ():
         if (row["adaptivity"], row["knowledge"]) == ("static", knowledge):
             if row["contrast"] == f"{greater} - {less}":
                 return dict(row)
@@ -372,8 +379,8 @@ def _eta_printed(line: Mapping[Any, Any]) -> str:
 def _anova_table(found: Found) -> ApaTable:
     holm = found.numbers["holm_across_mental_states"]
     rows = []
-    for outcome in OUTCOMES:
-        for row in (found.numbers["outcomes"][outcome]["anova"] or ())[1:]:
+    for outcome in found.study.outcomes:
+        for row in (found.own(outcome)["anova"] or ())[1:]:
             across = holm[row["effect"]].get(outcome)
             rows.append(
                 (outcome, row["effect"], f"{row['df1']}, {row['df2']}", decimal(row["F"]),
@@ -394,8 +401,8 @@ def _anova_table(found: Found) -> ApaTable:
 
 def _means_table(found: Found) -> ApaTable:
     rows = []
-    for outcome in OUTCOMES:
-        own = found.numbers["outcomes"][outcome]
+    for outcome in found.study.outcomes:
+        own = found.own(outcome)
         if own["cells"] is None or own["emm"] is None:
             continue
         ends = {
@@ -427,7 +434,7 @@ def adaptivity(found: Found) -> Part:
         if row["round"] != "static"
     )
     sentences, rows = [], []
-    gains = found.numbers["outcomes"]["engagement"][_GAINS] or ()
+    gains = found.own("engagement")[_GAINS] or ()
     one, other = line["greater"], line["less"]
     for row in gains:
         level = row["complexity"]
@@ -456,8 +463,8 @@ def adaptivity(found: Found) -> Part:
         "Holm adjusts over the three comparisons at a static level.",
     )  # fmt: skip
     figures = [
-        *_drawn(fig9_adaptivity, found.study, "engagement", found.alpha),
-        *_drawn(cells_figure, found.study, "engagement", found.alpha),
+        *_drawn(fig9_adaptivity, found.study, first_state(found.study), found.alpha),
+        *_drawn(cells_figure, found.study, first_state(found.study), found.alpha),
     ]
     return "Adaptivity (section 5.4, paragraph 4; Fig. 9)", sentences, [table], figures
 
@@ -494,7 +501,7 @@ def preference(found: Found) -> Part:
     """Preference (sections 5.3 and 5.5: no preference was significant)."""
     sentences = [
         anova_sentence("preference", row, found.alpha)
-        for row in (found.numbers["outcomes"]["preference"]["anova"] or ())[1:]
+        for row in (found.own("preference")["anova"] or ())[1:]
     ]
     chosen = attempt(preferred_rows, found.study, found.alpha)
     tables = []
@@ -527,8 +534,8 @@ def robustness(found: Found) -> Part:
     """What the paper does not print: equivalence, other weights, and other samples."""
     numbers, alpha = found.numbers, found.alpha
     sentences, tests, samples = [], [], []
-    for outcome in OUTCOMES:
-        own = numbers["outcomes"][outcome]
+    for outcome in found.study.outcomes:
+        own = found.own(outcome)
         if own["paired"] is not None:
             sentences.append(paired_sentence(outcome, own["paired"], alpha))
         tests += [
@@ -538,7 +545,7 @@ def robustness(found: Found) -> Part:
         ]  # fmt: skip
     sentences += [f"Note: {note}." for note in numbers["notes"] if "count the nine" in note]
     for rule in numbers["sensitivity"]["exclusions"]:
-        for outcome in OUTCOMES:
+        for outcome in found.study.outcomes:
             rows = (rule["results"] or {}).get(outcome) or ()
             samples += [
                 (rule["rule"], str(rule["n_kept"]), outcome, EFFECT_WORDS[row["effect"]],

@@ -6,12 +6,10 @@ import math
 from pathlib import Path
 
 from analysis.sources.absent import Plain
-from analysis.sources.factors import OUTCOMES
 from analysis.sources.frames import StudyData
 from analysis.sources.replays import Replays
 
 TEMPLATE = Path(__file__).with_name("missions.html")
-MEASURES = ("quiz", *OUTCOMES)
 
 
 def missions_html(replays: Replays, study: StudyData) -> str:
@@ -27,7 +25,7 @@ def missions_html(replays: Replays, study: StudyData) -> str:
         scores: dict[str, Plain] = {"quiz": None}
         if study.has("quiz_static"):
             scores["quiz"] = _known(people.loc[who, "quiz_static"])
-        for outcome in OUTCOMES:
+        for outcome in study.outcomes:
             scores[outcome] = _known(rounds.loc[who, (outcome, adaptivity)])
         group = people.loc[who, "knowledge"] if study.has("knowledge") else None
         known: Plain = group if isinstance(group, str) else None
@@ -35,7 +33,7 @@ def missions_html(replays: Replays, study: StudyData) -> str:
     data = {
         "label": study.label,
         "simulated": study.simulated,
-        "measures": list(MEASURES),
+        "measures": ["quiz", *study.outcomes],
         "buildings": replays.buildings,
         "missions": missions,
     }

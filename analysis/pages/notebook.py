@@ -85,8 +85,8 @@ def open_source(source: str) -> Opened:
     """
     folder = Path(os.environ.get(VARIABLE) or source)
     recorded = load_recorded(folder, check=False)
-    rules = read_rules()
     randomised = recorded.study()
+    rules = read_rules().known_to(list(randomised.participants.columns))
     study, clustering = grouped(left_by(randomised, rules.main()).study)
     return Opened(folder, recorded, rules, randomised, study, clustering)
 

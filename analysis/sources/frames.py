@@ -17,7 +17,15 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from analysis.sources.absent import Refusal, SourceError
-from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE, LIKERT_ITEMS, RANGES
+from analysis.sources.factors import (
+    ADAPTIVITY,
+    COMPLEXITY,
+    KNOWLEDGE,
+    LIKERT_ITEMS,
+    PAPER,
+    RANGES,
+)
+from game.tables.asked import Outcomes
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
@@ -32,6 +40,12 @@ class StudyData:
     label: str
     simulated: bool = False
     notes: tuple[str, ...] = ()
+    asked: Outcomes = PAPER
+
+    @property
+    def outcomes(self) -> tuple[str, ...]:
+        """What is analysed: victims, the mental states, and what is computed from the answers."""
+        return ("victims", *self.asked.mental_states, *self.asked.composites)
 
     def has(self, column: str) -> bool:
         """Whether the source knows this column of `participants` or `rounds` at all."""
@@ -78,7 +92,12 @@ class StudyData:
 
 
 def make_study(
-    participants: pd.DataFrame, rounds: pd.DataFrame, *, label: str, simulated: bool = False
+    participants: pd.DataFrame,
+    rounds: pd.DataFrame,
+    *,
+    label: str,
+    simulated: bool = False,
+    asked: Outcomes = PAPER,
 ) -> StudyData:
     """Check the two tables, add `preference`, and put their rows in order.
 
@@ -99,14 +118,16 @@ def make_study(
             f"{label}: participant {first['participant']} has more than one row for the "
             f"{first['adaptivity']} round; keep one"
         )
-    for column, (least, most) in RANGES.items():
-        _check_range(keyed[column], column, least, most, label)
+    for column, (least, most) in (RANGES | dict(asked.ranges)).items():
+        if column in keyed.columns:
+            _check_range(keyed[column], column, least, most, label)
+    if "preference" not in rounds.columns:
+        rounds = rounds.assign(preference=rounds[list(LIKERT_ITEMS)].sum(axis=1, skipna=False))
     ordered = rounds.assign(
-        preference=rounds[list(LIKERT_ITEMS)].sum(axis=1, skipna=False),
         adaptivity=pd.Categorical(rounds["adaptivity"], ADAPTIVITY, ordered=True),
     ).sort_values(["participant", "adaptivity"], ignore_index=True)
     ordered["adaptivity"] = ordered["adaptivity"].astype(str)
-    study = StudyData(participants.sort_index(), ordered, label, simulated)
+    study = StudyData(participants.sort_index(), ordered, label, simulated, asked=asked)
     counts = ordered["participant"].value_counts()
     single = sorted(str(who) for who in counts.index[counts < len(ADAPTIVITY)])
     if single:

@@ -6,19 +6,24 @@ that a written table holds, so a study read from journals and one read from tabl
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
-import msgspec
 import pandas as pd
 
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES
 from analysis.sources.frames import StudyData, make_study
-from game.tables.columns import TableColumn, cells, columns
-from game.tables.session_tables import ROW_TYPES
+from game.forms.form import Forms
+from game.forms.reading import paper_forms
+from game.tables.asked import FAILED, outcomes_of
+from game.tables.columns import TableColumn, columns
+from game.tables.session_tables import ROW_TYPES, row_types
 
 #: What analyses read; actions are many, and texts in own words may identify a person.
 ANALYSED = tuple(name for name in ROW_TYPES if name not in ("actions", "freetext"))
+
+#: What `participants` has only where a study asks for it.
+PERSON_ASKED = (FAILED,)
 
 PERSON = (
     "complexity",
@@ -30,17 +35,19 @@ PERSON = (
     "other_victim",
     "preferred_instructor",
 )
-ROUND = ("participant", "adaptivity", "building", "victims", *MENTAL_STATES, *LIKERT_ITEMS)
+ROUND = ("participant", "adaptivity", "building", "victims")
 
 
 @dataclass(frozen=True)
 class Recorded:
-    """The frames of a study by the names in `ANALYSED`; `notes` say what a reader must know."""
+    """The frames of a study by the names in `ANALYSED`; `notes` say what a reader must know, and
+    `forms` what was asked."""
 
     frames: Mapping[str, pd.DataFrame]
     label: str
     simulated: bool
     notes: tuple[str, ...] = ()
+    forms: Forms = field(default_factory=paper_forms)
 
     def frame(self, name: str) -> pd.DataFrame:
         """The frame called `name`."""
@@ -61,12 +68,27 @@ class Recorded:
             raise SourceError(
                 f"{self.label}: nobody got as far as the allocation; there is nothing to analyse"
             )
-        rounds = self.frame("rounds")[list(ROUND)]
-        study = make_study(people[list(PERSON)], rounds, label=self.label, simulated=self.simulated)
+        asked = outcomes_of(self.forms)
+        every = self.frame("rounds")
+        wanted = (*MENTAL_STATES, *LIKERT_ITEMS, *asked.ranges, *asked.composites)
+        columns = dict.fromkeys((*ROUND, *(name for name in wanted if name in every.columns)))
+        person = (*PERSON, *(name for name in PERSON_ASKED if name in people.columns))
+        study = make_study(
+            people[list(person)],
+            every[list(columns)],
+            label=self.label,
+            simulated=self.simulated,
+            asked=asked,
+        )
         return study.noted(*self.notes, *_unfinished(self.frame("participants")))
 
 
-def recorded(frames: Mapping[str, pd.DataFrame], label: str, notes: Iterable[str] = ()) -> Recorded:
+def recorded(
+    frames: Mapping[str, pd.DataFrame],
+    label: str,
+    notes: Iterable[str] = (),
+    forms: Forms | None = None,
+) -> Recorded:
     """A study of these frames.
 
     Raises SourceError for no session at all, a participant who is there twice, or real and
@@ -82,20 +104,16 @@ def recorded(frames: Mapping[str, pd.DataFrame], label: str, notes: Iterable[str
     if len(kinds) > 1:
         raise SourceError(f"{label}: it holds real and simulated sessions; they are analysed apart")
     several = _versions(people)
-    return Recorded(frames, label, kinds == {True}, (*notes, *several))
+    return Recorded(frames, label, kinds == {True}, (*notes, *several), forms or paper_forms())
 
 
-def frame_of(name: str, rows: Iterable[msgspec.Struct]) -> pd.DataFrame:
-    """The rows of the table called `name` as a frame."""
-    return typed(name, [list(cells(row)) for row in rows])
-
-
-def typed(name: str, table: Sequence[Sequence[str]]) -> pd.DataFrame:
+def typed(name: str, table: Sequence[Sequence[str]], forms: Forms | None = None) -> pd.DataFrame:
     """A frame of text cells with each column's own type; an empty cell is missing.
 
-    Raises ValueError for a cell that its column cannot hold.
+    `forms` are those of the study, the paper's if not said. Raises ValueError for a cell that its
+    column cannot hold.
     """
-    described = columns(ROW_TYPES[name])
+    described = columns(row_types(forms or paper_forms())[name])
     text = pd.DataFrame(table, columns=[column.name for column in described], dtype=object)
     return pd.DataFrame({column.name: _converted(text, column) for column in described})
 

@@ -20,8 +20,10 @@ def left_by(study: StudyData, rule: ExclusionRule | None) -> Sample:
 
     Where the rule's column is missing, it excludes nobody.
     """
-    if rule is None or not study.has(rule.column):
-        return Sample(study, (), rule)
-    counts = study.participants[rule.column].dropna()
-    excluded = tuple(str(who) for who, count in counts.items() if rule.excludes(count))
-    return Sample(study.without(excluded), excluded, rule)
+    gone: set[str] = set()
+    for one in () if rule is None else (rule, *rule.others):
+        if study.has(one.column):
+            counts = study.participants[one.column].dropna()
+            gone |= {str(who) for who, count in counts.items() if one.excludes(count)}
+    excluded = tuple(str(who) for who in study.participants.index if str(who) in gone)
+    return Sample(study.without(excluded) if excluded else study, excluded, rule)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
+from analysis.sources.dataset import is_dataset, read_dataset
 from analysis.sources.frames import StudyData
 from analysis.sources.longcsv import read_long_csv
 from analysis.sources.recorded import Recorded
@@ -33,7 +34,8 @@ def load(
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
 ) -> Loaded:
-    """Read one table, with quiz scores if given, a study folder, or a folder of tables.
+    """Read one table, with quiz scores if given, a study folder, a dataset exported from one, or
+    a folder of tables.
 
     Raises SourceError or JournalError naming the place and a hint.
     """
@@ -64,16 +66,19 @@ def load_recorded(
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
 ) -> Recorded:
-    """Read a study folder (`mode` and `check` as `read_study_folder` has them), or its tables.
+    """Read a study folder (`mode` and `check` as `read_study_folder` has them), a dataset that was
+    exported from one, or its tables.
 
     Raises SourceError or JournalError naming the place and a hint.
     """
     if is_tables_folder(source):
         return read_tables(source)
+    if is_dataset(source):
+        return read_dataset(source, mode)
     if is_study_folder(source):
         return read_study_folder(source, mode, check=check, tick=tick)
     raise SourceError(
-        "this is neither a study folder nor a folder of tables",
+        "this is neither a study folder nor a dataset nor a folder of tables",
         place=str(source),
-        hint="Give the folder that `ana study new` or `ana simulate` has made",
+        hint="Give the folder that `ana study new`, `ana study export` or `ana simulate` has made",
     )

@@ -2,18 +2,21 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from os import cpu_count
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
-from analysis.sources.recorded import ANALYSED, Recorded, frame_of, recorded
+from analysis.sources.recorded import ANALYSED, Recorded, recorded, typed
+from game.forms.form import Forms
+from game.forms.reading import BLANK, FORMS, ITEMS, paper_forms, read_forms
 from game.journal.folders import SESSIONS, journals, misplaced
 from game.journal.reader import read_journal
 from game.journal.records import STUDY_MODES, StudyMode
 from game.session.verification import verify
-from game.tables.session_tables import Tables, combined, session_tables
+from game.tables.columns import cells
+from game.tables.session_tables import session_tables
 
 #: From so many journals on they are read by several processes.
 MANY = 4
@@ -29,7 +32,7 @@ class _Read:
     """One journal as a worker hands it back."""
 
     path: Path
-    tables: Tables
+    cells: dict[str, list[list[str]]]
     schema: int
     difference: str
 
@@ -54,15 +57,26 @@ def read_study_folder(
             place=str(folder / SESSIONS / mode),
             hint=f"Take those that there are: {_there_are(folder)}",
         )
-    read = _read_all(folder, mode, paths, check, tick)
+    forms = forms_of(folder)
+    read = _read_all(folder, mode, paths, check, forms, tick)
     _refuse_changed(read)
-    tables = combined(one.tables for one in read)
-    frames = {name: frame_of(name, tables.table(name)) for name in ANALYSED}
+    frames = {
+        name: typed(name, [row for one in read for row in one.cells[name]], forms)
+        for name in ANALYSED
+    }
     schemas = sorted({one.schema for one in read})
     notes = [] if len(schemas) == 1 else [_mixed(schemas)]
     if mode == "pilot":
         notes.append("these are pilot sessions, no data of the study")
-    return recorded(frames, folder.resolve().name, notes)
+    return recorded(frames, folder.resolve().name, notes, forms)
+
+
+def forms_of(folder: Path) -> Forms:
+    """What is asked in a study folder, or was in a dataset's folder of materials; the paper's forms
+    where it has no file of them. Raises FormsError for a file that cannot be used."""
+    if any((folder / name).is_file() for name in (FORMS, ITEMS)):
+        return read_forms(folder, BLANK).forms
+    return paper_forms()
 
 
 def is_study_folder(folder: Path) -> bool:
@@ -109,30 +123,36 @@ def _options(modes: Sequence[StudyMode]) -> str:
 
 
 def _read_all(
-    folder: Path, mode: StudyMode, paths: Sequence[Path], check: bool, tick: Tick
+    folder: Path,
+    mode: StudyMode,
+    paths: Sequence[Path],
+    check: bool,
+    forms: Forms,
+    tick: Tick,
 ) -> list[_Read]:
     read: list[_Read] = []
     if len(paths) < MANY:
         for path in paths:
-            read.append(_read(folder, mode, path, check))
+            read.append(_read(folder, mode, path, check, forms))
             tick(len(read), len(paths))
         return read
     with ProcessPoolExecutor(min(len(paths), cpu_count() or 1)) as pool:
-        for one in pool.map(partial(_read, folder, mode, check=check), paths):
+        for one in pool.map(partial(_read, folder, mode, check=check, forms=forms), paths):
             read.append(one)
             tick(len(read), len(paths))
     return read
 
 
-def _read(folder: Path, mode: StudyMode, path: Path, check: bool) -> _Read:
+def _read(folder: Path, mode: StudyMode, path: Path, check: bool, forms: Forms) -> _Read:
     transcript = read_journal(path)
     wrong = misplaced(transcript.started, folder, mode, path.parent.name)
     if wrong:
         raise SourceError(wrong, place=str(path), hint="Put it back where it was recorded")
-    tables = replace(session_tables(transcript), actions=(), freetext=())
+    tables = session_tables(transcript, forms=forms)
     difference = verify(path).difference if check else None
     told = "" if difference is None else str(difference)
-    return _Read(path, tables, transcript.started.versions.schema, told)
+    found = {name: [list(cells(row)) for row in tables.table(name)] for name in ANALYSED}
+    return _Read(path, found, transcript.started.versions.schema, told)
 
 
 def _refuse_changed(read: Sequence[_Read]) -> None:

@@ -3,17 +3,22 @@
 import csv
 import gzip
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import msgspec
 import pandas as pd
 
 from analysis.sources.absent import SourceError
 from analysis.sources.recorded import ANALYSED, Recorded, recorded, typed
+from game.forms.form import Forms
+from game.forms.reading import paper_forms
 from game.tables.columns import cell, columns
-from game.tables.session_tables import ROW_TYPES
+from game.tables.session_tables import row_types
 
 ENDING = ".csv.gz"
+ASKED = "forms.json"
+"""The study's forms, where they are not the paper's."""
 
 
 def write_tables(study: Recorded, folder: Path) -> list[Path]:
@@ -22,17 +27,24 @@ def write_tables(study: Recorded, folder: Path) -> list[Path]:
     paths = []
     for name in ANALYSED:
         path = folder / f"{name}{ENDING}"
-        path.write_bytes(gzip.compress(csv_text(study.frame(name), name).encode(), 9, mtime=0))
+        text = csv_text(study.frame(name), name, study.forms)
+        path.write_bytes(gzip.compress(text.encode(), 9, mtime=0))
         paths.append(path)
+    if study.forms != paper_forms():
+        (folder / ASKED).write_bytes(msgspec.json.format(msgspec.json.encode(study.forms)))
+        paths.append(folder / ASKED)
     return paths
 
 
-def csv_text(frame: pd.DataFrame, name: str) -> str:
+def csv_text(frame: pd.DataFrame, name: str, forms: Forms | None = None) -> str:
     """A frame as CSV, its cells as exports have them."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(frame.columns)
-    written = [_cells(frame[column.name], column.values) for column in columns(ROW_TYPES[name])]
+    written = [
+        _cells(frame[column.name], column.values)
+        for column in columns(row_types(forms or paper_forms())[name])
+    ]
     writer.writerows(zip(*written, strict=True))
     return out.getvalue()
 
@@ -47,24 +59,39 @@ def read_tables(folder: Path) -> Recorded:
 
     Raises SourceError, naming the file, for a table that is missing or holds something else.
     """
-    frames = {name: _read_table(folder / f"{name}{ENDING}", name) for name in ANALYSED}
-    return recorded(frames, folder.resolve().name)
+    forms = _forms(folder / ASKED)
+    frames = {name: _read_table(folder / f"{name}{ENDING}", name, forms) for name in ANALYSED}
+    return recorded(frames, folder.resolve().name, forms=forms)
 
 
-def _read_table(path: Path, name: str) -> pd.DataFrame:
-    header = [column.name for column in columns(ROW_TYPES[name])]
+def _forms(path: Path) -> Forms:
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=Forms)
+    except FileNotFoundError:
+        return paper_forms()
+    except (OSError, msgspec.MsgspecError) as error:
+        raise SourceError(f"the forms cannot be read ({error})", place=str(path)) from error
+
+
+def _read_table(path: Path, name: str, forms: Forms) -> pd.DataFrame:
     try:
         with gzip.open(path, "rt", encoding="utf-8", newline="") as file:
-            first, *rows = csv.reader(file)
-        if first != header:
-            raise ValueError("its columns are not those of the table")
-        return typed(name, rows)
+            return table_of(csv.reader(file), name, forms)
     except (OSError, EOFError, ValueError) as error:
         raise SourceError(
             f"the table cannot be read ({error})",
             place=str(path),
             hint="Write the tables again with this version: python -m analysis.reproduce",
         ) from error
+
+
+def table_of(lines: Iterable[list[str]], name: str, forms: Forms) -> pd.DataFrame:
+    """A frame of a header and its rows. Raises ValueError for those of another table."""
+    header = [column.name for column in columns(row_types(forms)[name])]
+    first, *rows = lines
+    if first != header:
+        raise ValueError("its columns are not those of the table")
+    return typed(name, rows, forms)
 
 
 def _cells(values: "pd.Series", kind: str) -> Sequence[str]:

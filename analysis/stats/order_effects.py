@@ -12,7 +12,6 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
-from analysis.sources.factors import OUTCOMES
 from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.cellmodel import CELLS, Contrast, contrast_row
 from analysis.stats.level import ALPHA
@@ -24,7 +23,7 @@ Code: TypeAlias = Callable[[StudyData], pd.Series]
 
 def order_rows(study: StudyData, alpha: float = ALPHA) -> dict[str, list[Row] | Absent]:
     """Round, order and building effects of each outcome, as far as the source knows them."""
-    return {outcome: attempt(_rows, study, outcome, alpha) for outcome in OUTCOMES}
+    return {outcome: attempt(_rows, study, outcome, alpha) for outcome in study.outcomes}
 
 
 def _rows(study: StudyData, outcome: str, alpha: float) -> list[Row]:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, Tree, attempt
-from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, OUTCOMES
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, StudyData, both_rounds, paired
 from analysis.sources.samples import Sample, left_by
 from analysis.stats.anova import mixed_anova
@@ -49,7 +49,7 @@ def _sample_row(name: str, words: str, sample: Sample, everybody: StudyData) -> 
         "n_kept": len(kept.participants),
         "n_excluded": len(sample.excluded),
         "by_design_cell": by_design_cell(everybody, sample.excluded),
-        "results": {outcome: _short_anova(kept, outcome) for outcome in OUTCOMES},
+        "results": {outcome: _short_anova(kept, outcome) for outcome in kept.outcomes},
     }
 
 
@@ -91,7 +91,9 @@ def other_grouping_rows(study: StudyData, clustering: Clustering) -> list[Row]:
                 "max_low": max_low,
                 "max_med": max_med,
                 "sizes": {group: members.count(group) for group in KNOWLEDGE},
-                "results": {outcome: _short_anova(regrouped, outcome) for outcome in OUTCOMES},
+                "results": {
+                    outcome: _short_anova(regrouped, outcome) for outcome in regrouped.outcomes
+                },
             }
         )
     return rows

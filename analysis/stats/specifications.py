@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
-from analysis.sources.factors import KNOWLEDGE, MENTAL_STATES
+from analysis.sources.factors import KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, paired
 from analysis.sources.samples import left_by
 from analysis.stats.anova import THREE_WAY, WITHIN, mixed_anova
@@ -25,17 +25,22 @@ FEWER_PERMUTATIONS = 499
 
 
 def specification_rows(randomised: StudyData, rules: ExclusionRules) -> list[Row]:
-    """p of the three-way effect on engagement under every specification.
+    """p of the three-way effect on engagement (on the first mental state, where a study does not
+    ask for it) under every specification.
 
-    A correction is over the four mental states. A specification that cannot be had has no p, and
+    A correction is over the mental states. A specification that cannot be had has no p, and
     says why.
     """
     rows: list[Row] = []
+    states = randomised.asked.mental_states
+    if not states:
+        return rows
+    outcome = states.index(OUTCOME) if OUTCOME in states else 0
     for sample, study in _samples(randomised, rules):
         for grouping, regrouped in _groupings(study):
             for model, p_of in _models(grouping):
-                values = [attempt(p_of, regrouped, state) for state in MENTAL_STATES]
-                ours = adjusted(values)[MENTAL_STATES.index(OUTCOME)]
+                values = [attempt(p_of, regrouped, state) for state in states]
+                ours = adjusted(values)[outcome]
                 rows += [
                     {"sample": sample, "groups": grouping, "model": model, "correction": name,
                      "n": len(regrouped.participants), "p": ours[column]}

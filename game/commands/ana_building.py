@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 
 import click
 
+from game.commands.offered import buildings, offering
 from game.world import load_building
 from game.world.building import Building, Room, Severity
 from game.world.drawing import BuildingError
@@ -42,7 +43,7 @@ def building_group() -> None:
 
 
 @building_group.command("show", short_help="Draw a building.")
-@click.argument("building")
+@click.argument("building", shell_complete=offering(buildings, files=True))
 @_seed_option
 def show_building(building: str, seed: int) -> None:
     """Draw BUILDING (a name, generated:SEED or a file) with its rooms, doors, victims and start."""
@@ -63,7 +64,7 @@ def show_building(building: str, seed: int) -> None:
 
 
 @building_group.command("check", short_help="Check a building file.")
-@click.argument("file")
+@click.argument("file", shell_complete=offering(buildings, files=True))
 @_seed_option
 def check_building(file: str, seed: int) -> int:
     """Check the building FILE, a name or generated:SEED: list every problem and how to fix it."""

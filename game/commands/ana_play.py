@@ -15,17 +15,21 @@ import msgspec
 
 from game.coach.presets import PRESETS
 from game.coach.spec import parse_coach
+from game.commands.offered import buildings, coaches, levels, offering, presets
+from game.commands.offered import settings as settings_offered
 from game.errors import AnaError, choose_from
+from game.journal.folders import JOURNAL, all_journals
 from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
 from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED
-from game.world.settings import FREE_PLAY, Controls, MissionSettings
+from game.world.settings import FREE_PLAY, RANGES, Controls, MissionSettings
 from game.world.variant import Difficulty, Variant, Victims, day_seed, varied, with_demands
 
 DEFAULT_BUILDING = "harbour"
 MINUTE_MS = 60_000
+SHORTEST_MINUTES, LONGEST_MINUTES = 1 / 60, 60
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -35,6 +39,7 @@ def mission_options(command: _Command) -> _Command:
     options = (
         click.option(
             "--building",
+            shell_complete=offering(buildings, files=True),
             metavar="NAME|PATH",
             help="A building that comes with ana, generated:SEED for one made from a seed, or the "
             f"path of your own file.  [default: {DEFAULT_BUILDING}]",
@@ -59,13 +64,23 @@ def mission_options(command: _Command) -> _Command:
         ),
         click.option(
             "--coach",
+            shell_complete=offering(coaches, files=True),
             default="ana",
             show_default=True,
             help="ana and knowledge adapt their level, static does not; yoked repeats the levels "
             "of another mission; FILE.py:CLASS loads your own.",
         ),
-        click.option("--preset", help=f"How ana adapts: {', '.join(PRESETS)}."),
-        click.option("--level", type=int, help="The level of a static coach: 1, 2 or 3."),
+        click.option(
+            "--preset",
+            shell_complete=offering(presets),
+            help=f"How ana adapts: {', '.join(PRESETS)}.",
+        ),
+        click.option(
+            "--level",
+            type=int,
+            shell_complete=offering(levels),
+            help="The level of a static coach: 1, 2 or 3.",
+        ),
         click.option(
             "--levels-of",
             type=click.Path(path_type=Path, dir_okay=False),
@@ -93,6 +108,7 @@ def mission_options(command: _Command) -> _Command:
         click.option(
             "--set",
             "assignments",
+            shell_complete=offering(settings_offered),
             multiple=True,
             metavar="KEY=VALUE",
             help="A mission setting, for example moves_per_second=20; repeatable.",
@@ -129,8 +145,24 @@ def play(now: bool, text: bool, memorise: int, **given: Any) -> int:
 @click.command(name="replay")
 @click.argument("journal", type=click.Path(path_type=Path))
 def replay_journal(journal: Path) -> int:
-    """Replay the mission in JOURNAL, showing what the coach believed at each moment."""
-    return run_replay(journal)
+    """Replay the mission in JOURNAL, showing what the coach believed at each moment.
+
+    A folder stands for the session in it.
+    """
+    return run_replay(only_journal(journal) if journal.is_dir() else journal)
+
+
+def only_journal(folder: Path) -> Path:
+    """The journal of the session in a folder. Raises AnaError where there is none, or several."""
+    found = (*folder.glob(JOURNAL), *folder.glob(f"*/{JOURNAL}")) or all_journals(folder)
+    if len(found) == 1:
+        return found[0]
+    newest = max(found, key=lambda path: path.stat().st_mtime)
+    raise AnaError(
+        f"there are {len(found)} sessions in this folder",
+        place=str(folder),
+        hint=f"Give one of them; the newest is {newest.parent}",
+    )
 
 
 def play_in_text(options: PlayOptions) -> int:
@@ -170,7 +202,13 @@ def options_of(
     if controls is not None:
         settings = replace(settings, controls=controls)
     if minutes is not None:
-        settings = _checked("--minutes", settings, duration_ms=round(minutes * MINUTE_MS))
+        if not SHORTEST_MINUTES <= minutes <= LONGEST_MINUTES:
+            raise AnaError(
+                f"a mission lasts from a second to {LONGEST_MINUTES} minutes, not {minutes:g}",
+                place="--minutes",
+                hint="Give minutes, as in --minutes 2.5",
+            )
+        settings = replace(settings, duration_ms=round(minutes * MINUTE_MS))
     if today and seed is not None:
         raise AnaError(
             "the seed of the mission of the day is the date",
@@ -213,15 +251,21 @@ def assigned(settings: MissionSettings, assignments: Iterable[str]) -> MissionSe
             )
         try:
             kind = str if get_origin(kinds[name]) is Literal else kinds[name]
-            converted = msgspec.convert(value, kind, strict=False)
-        except msgspec.ValidationError as error:
-            raise AnaError(f"{name} cannot be '{value}': {error}", place=place) from error
-        settings = _checked(place, settings, **{name: converted})
+            change: dict[str, Any] = {name: msgspec.convert(value, kind, strict=False)}
+            settings = replace(settings, **change)
+        except ValueError as error:
+            raise AnaError(
+                f"{name} must be {_what_fits(name, kinds[name])}, not '{value}'", place=place
+            ) from error
     return settings
 
 
-def _checked(place: str, settings: MissionSettings, **changes: Any) -> MissionSettings:
-    try:
-        return replace(settings, **changes)
-    except ValueError as error:
-        raise AnaError(str(error), place=place) from error
+def _what_fits(name: str, kind: Any) -> str:
+    """The values that a setting can have, in words."""
+    if kind is bool:
+        return "true or false"
+    if get_origin(kind) is Literal:
+        return " or ".join(get_args(kind))
+    number = "a number" if kind is float else "a whole number"
+    bounds = next(((low, high) for it, low, high in RANGES if it == name), None)
+    return number if bounds is None else f"{number} from {bounds[0]} to {bounds[1]}"

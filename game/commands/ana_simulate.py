@@ -9,6 +9,7 @@ import click
 
 from game.coach.presets import PRESETS
 from game.coach.spec import DEFAULT_PRESET
+from game.commands.offered import coaches, offering
 from game.rescuers.person import POPULATIONS, world
 from game.simulation.simulated_study import Workers, simulate
 from game.simulation.workers import cores, here, on_cluster, on_cores
@@ -36,6 +37,7 @@ from game.study.study_settings import ADAPTIVE
 @click.option(
     "--coach",
     metavar="KIND",
+    shell_complete=offering(coaches, files=True),
     help="The adaptive instructor of a new study: as in ana play, or knowledge+quiz.  "
     f"[default: {ADAPTIVE}]",
 )

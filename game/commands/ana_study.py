@@ -62,14 +62,34 @@ def study_group() -> None:
               help="The language of everything participants read: en or de.")  # fmt: skip
 def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> None:
     """Create the study folder DIR, with settings and texts to check before you begin."""
-    from game.study.folder import ITEMS, SETTINGS, TEXTS, new_study
+    from game.forms.reading import FORMS
+    from game.study.folder import SETTINGS, TEXTS, new_study
 
     new_study(folder, seed, blocks, language=language)
     click.echo(
-        f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {ITEMS}, then try it:\n"
+        f"{folder}: new study created. Edit {SETTINGS}, {TEXTS} and {FORMS}, then try it:\n"
         f"  ana study check {folder}\n"
         f"  ana study run {folder} --participant TEST --pilot"
     )
+    if language != "en":
+        click.echo("This is a first translation: let a native speaker read it before you use it.")
+
+
+@study_group.command("forms", short_help="Print ready forms to copy from.")
+@click.argument("name", required=False, metavar="[NAME]")
+def print_form(name: str | None) -> None:
+    """List the ready forms, or print one of them.
+
+    To ask it in a study: ana study forms NAME >> DIR/forms.toml
+    """
+    from game.study.ready import ready_names, ready_text, summary
+
+    if name is not None:
+        click.echo(ready_text(name), nl=False)
+        return
+    width = max(map(len, ready_names()))
+    for one in ready_names():
+        click.echo(f"{one.ljust(width)}  {summary(one)}")
 
 
 @study_group.command("demo", short_help="Make a study half-way through, to try things on.")
@@ -127,6 +147,8 @@ def check_study(folder: Path, pictures: Path | None) -> int:
     wrong, pages = found_wrong(study)
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
+    for note in study.notes:
+        click.echo(f"note: {note}")
     for one in wrong:
         _red(one)
     size = study.settings.screen
@@ -178,7 +200,7 @@ def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> 
 def amend_settings(folder: Path, why: str) -> None:
     """Record that something was changed after the first participant, and why.
 
-    That is study.toml, texts.toml, items.toml or a building. Until then nobody can log in.
+    That is study.toml, texts.toml, forms.toml or a building. Until then nobody can log in.
     """
     from game.study.folder import amend
 

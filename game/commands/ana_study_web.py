@@ -10,6 +10,10 @@ import click
 
 from game.errors import AnaError
 
+_BARE = """\
+  note: other computers can reach this, and links, keys and answers can be read on the way. For
+  anything but a closed network put a proxy with TLS before it (docs/lab.md), and give its --url"""
+
 
 @contextmanager
 def web_extra() -> Iterator[None]:
@@ -29,16 +33,19 @@ def serve_study(folder: Path, host: str, port: int, url: str | None, sessions: i
     with web_extra():
         from game.web.doors import StudyDoor
         from game.web.hosted import Limits
-        from game.web.serving import serve
+        from game.web.serving import is_loopback, serve
     from game.study.folder import open_study
     from game.study.links import checked_address
 
     study = open_study(folder)
     panel = study.settings.web.panel_id
+    bare = not is_loopback(host) and not (url or "").startswith("https:")
 
     def ready(address: str) -> None:
         click.echo(f"{folder}: participants come to {address} (Ctrl+C ends this)")
         click.echo(f"  links: ana study invite {folder} P01 P02 ... --url {address}")
+        if bare:
+            click.echo(_BARE, err=True)
         if panel:
             click.echo(f"  panel: {address}?{panel}=ID (panel_id in study.toml)")
 

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from game.commands.ana_play import mission_options, options_of
+from game.commands.offered import offering, rescuers
 from game.rescuers.catalogue import LITERAL, RESCUERS, character
 from game.screens.play.app import run_watch
 
@@ -19,6 +20,7 @@ from game.screens.play.app import run_watch
     default=LITERAL,
     show_default=True,
     metavar="NAME",
+    shell_complete=offering(rescuers),
     help=f"Who plays: {', '.join(RESCUERS)}.",
 )
 def watch(rescuer: str, **given: Any) -> int:

@@ -22,6 +22,8 @@ from game.coach.acts import (
 from game.journal.reader import Entry, Transcript
 from game.journal.records import (
     Allocated,
+    AnswerCleared,
+    ChoicesGiven,
     Consented,
     Covered,
     Declined,
@@ -206,9 +208,10 @@ class History:
     amendments: int = 0
     phases: dict[Step, PhaseSpan] = field(default_factory=dict)
     items: dict[tuple[Step, str], QuestionnaireAnswer] = field(default_factory=dict)
+    choices: dict[tuple[Step, str], ChoicesGiven] = field(default_factory=dict)
     labels: dict[tuple[int, str], tuple[QuizAnswer, int]] = field(default_factory=dict)
     quizzes: dict[int, QuizSubmitted] = field(default_factory=dict)
-    free_texts: list[FreeText] = field(default_factory=list)
+    words: dict[tuple[Step, str], FreeText] = field(default_factory=dict)
     missions: list[MissionHistory] = field(default_factory=list)
     strays: list[Entry] = field(default_factory=list)
     _mission: MissionHistory | None = None
@@ -226,6 +229,22 @@ class History:
             if mission.step.phase == "practice"
             for fate, _ in mission.fates.values()
         )
+
+    def answer(self, step: Step, item: str) -> int | tuple[int, ...] | str | None:
+        """The answer that counts, to an item in a step: a value, the positions of all that were
+        chosen, or words."""
+        if (number := self.items.get((step, item))) is not None:
+            return number.value
+        if (chosen := self.choices.get((step, item))) is not None:
+            return chosen.chosen
+        words = self.words.get((step, item))
+        return None if words is None else words.answer
+
+    def latest_answer(self, item: str, round_: int) -> int | tuple[int, ...] | str | None:
+        """The answer to an item in a round, or else wherever it was last given."""
+        steps = [step for kept in (self.items, self.choices) for step, name in kept if name == item]
+        here = [step for step in steps if step.round == round_]
+        return self.answer((here or steps)[-1], item) if steps else None
 
     def is_void(self, round_: int) -> bool:
         return any(
@@ -260,24 +279,35 @@ class History:
                 self._note_mission(step, record, line)
             case PhaseStarted() | PhaseEnded() | Exposed() | Covered():
                 self._note_phase(step, envelope.utc, record)
-            case QuestionnaireAnswer() | QuizAnswer() | QuizSubmitted() | FreeText():
+            case QuizAnswer() | QuizSubmitted():
+                self._note_label(step, record)
+            case QuestionnaireAnswer() | ChoicesGiven() | FreeText() | AnswerCleared():
                 self._note_answer(step, record)
             case _:
                 self._note_frame(record)
 
-    def _note_answer(
-        self, step: Step, record: QuestionnaireAnswer | QuizAnswer | QuizSubmitted | FreeText
-    ) -> None:
+    def _note_label(self, step: Step, record: QuizAnswer | QuizSubmitted) -> None:
         match record:
-            case QuestionnaireAnswer():
-                self.items[step, record.item] = record
             case QuizAnswer():
                 _, before = self.labels.get((step.round, record.room), (None, -1))
                 self.labels[step.round, record.room] = record, before + 1
             case QuizSubmitted():
                 self.quizzes[step.round] = record
+
+    def _note_answer(
+        self, step: Step, record: QuestionnaireAnswer | ChoicesGiven | FreeText | AnswerCleared
+    ) -> None:
+        match record:
+            case QuestionnaireAnswer():
+                self.items[step, record.item] = record
+            case ChoicesGiven():
+                self.choices[step, record.item] = record
             case FreeText():
-                self.free_texts.append(record)
+                self.words[step, record.item] = record
+            case AnswerCleared():
+                self.items.pop((step, record.item), None)
+                self.choices.pop((step, record.item), None)
+                self.words.pop((step, record.item), None)
 
     def _note_once(self, record: Record) -> None:
         match record:

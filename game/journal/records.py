@@ -28,7 +28,7 @@ RULES_VERSION = 3
 RELEASES = {1: "a version before 0.1.0", 2: "release 0.1.0"}
 """Which `ana` verifies journals of earlier rules."""
 
-Phase = Literal[
+ProtocolPhase = Literal[
     "session",
     "preflight",
     "consent",
@@ -36,12 +36,15 @@ Phase = Literal[
     "memorise",
     "label",
     "mission",
-    "sliders",
-    "likert",
     "preference",
     "debrief",
 ]
-"""The part of a session that a record belongs to; `session` is outside all phases."""
+"""The parts of a session that are no forms; `session` is outside all of them."""
+PROTOCOL_PHASES: tuple[ProtocolPhase, ...] = get_args(ProtocolPhase)
+
+Phase = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z][A-Za-z0-9_.]*$")]
+"""The part of a session that a record belongs to: a `ProtocolPhase` or a form, by its id in
+forms.toml."""
 
 StudyMode = Literal["live", "pilot", "simulated"]
 Mode = Literal["free_play", StudyMode]
@@ -49,7 +52,7 @@ Mode = Literal["free_play", StudyMode]
 STUDY_MODES: tuple[StudyMode, ...] = get_args(StudyMode)
 
 ROUNDS = (1, 2)
-"""The rounds of a study's session."""
+"""The rounds of a session of the paper's study."""
 
 StepEnding = Literal["completed", "timed_out", "interrupted", "void", "unfinished"]
 """How a phase ended, so far."""
@@ -234,15 +237,23 @@ class PracticeChecked(SessionRecord, frozen=True, tag="practice_checked"):
     asked: int
 
 
-class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True):
-    """The slot taken in the ledger, and what its design cell means for both rounds."""
+class Allocated(SessionRecord, frozen=True, tag="allocated", kw_only=True, omit_defaults=True):
+    """The slot taken in the ledger, and what its design cell means for each round: `buildings` in
+    the order of rounds, and `adaptive_first` if the second of the two `instructors` has the first
+    round (they are a static and an adaptive one where none are named), after which they take
+    turns."""
 
     slot: int
     refill: bool
     memorise_ms: int
     adaptive_first: bool
     static_level: Level
-    buildings: tuple[str, str]
+    buildings: tuple[str, ...]
+    instructors: tuple[str, ...] = ()
+
+    def second_leads(self, round_: int) -> bool:
+        """Whether the second of the two instructors, the adaptive one, leads a round."""
+        return self.adaptive_first is (round_ % 2 == 1)
 
 
 class PhaseStarted(SessionRecord, frozen=True, tag="phase_started"):
@@ -309,6 +320,30 @@ class QuestionnaireAnswer(SessionRecord, frozen=True, tag="questionnaire_answer"
     version: str = ""
 
 
+class ChoicesGiven(SessionRecord, frozen=True, tag="choices_given", kw_only=True):
+    """An item that can have several answers was answered: `chosen` are their positions among
+    `anchors`, from 1. The rest as in `questionnaire_answer`."""
+
+    item: str
+    text: str
+    anchors: tuple[str, ...]
+    place: int
+    chosen: tuple[int, ...]
+    response_ms: int
+    changes: int = 0
+    version: str = ""
+
+
+class AnswerCleared(SessionRecord, frozen=True, tag="answer_cleared", kw_only=True):
+    """The answer to an item was taken back, or the item is no longer shown (`hidden`) because an
+    earlier answer was changed: it has no answer."""
+
+    item: str
+    hidden: bool = False
+    response_ms: int = 0
+    version: str = ""
+
+
 class PreferenceGiven(SessionRecord, frozen=True, tag="preference_given", kw_only=True):
     """The preferred instructor: that of `preferred_round`. `options` are as shown."""
 
@@ -369,6 +404,8 @@ StudyRecord = (
     | QuizAnswer
     | QuizSubmitted
     | QuestionnaireAnswer
+    | ChoicesGiven
+    | AnswerCleared
     | PreferenceGiven
     | FreeText
     | Debriefed

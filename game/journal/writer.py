@@ -22,6 +22,8 @@ from game.journal.reader import parse_journal
 from game.journal.records import (
     SCHEMA_VERSION,
     Allocated,
+    AnswerCleared,
+    ChoicesGiven,
     Consented,
     Envelope,
     FreeText,
@@ -60,6 +62,8 @@ LASTING = frozenset(
         QuizAnswer,
         QuizSubmitted,
         QuestionnaireAnswer,
+        ChoicesGiven,
+        AnswerCleared,
         PreferenceGiven,
         FreeText,
         Withdrawn,

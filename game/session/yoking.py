@@ -13,14 +13,19 @@ from game.journal.records import Allocated
 from game.world.building import Building
 
 
-def yoke_of(path: Path, building: Building) -> Yoke:
-    """The levels of the last finished mission in `building` that the journal at `path` holds.
+def yoke_of(path: Path, building: Building, kind: str | None = None) -> Yoke:
+    """The levels of the last finished mission in `building` that the journal at `path` holds, led
+    by a coach of this kind if one is given.
 
     Raises JournalError where that is no journal, AnaError where it holds no such mission.
     """
     transcript = read_journal(path)
     finished = [mission for mission in read_history(transcript).missions if mission.end == "ended"]
-    here = [it for it in finished if it.started.building_sha256 == building.hash]
+    here = [
+        it
+        for it in finished
+        if it.started.building_sha256 == building.hash and kind in (None, it.started.coach.kind)
+    ]
     if not here:
         played = sorted({mission.started.building for mission in finished})
         raise AnaError(
@@ -33,11 +38,11 @@ def yoke_of(path: Path, building: Building) -> Yoke:
         transcript.started.session,
         building.hash,
         allocated[-1].memorise_ms if allocated else None,
-        _levels(here[-1]),
+        levels_of(here[-1]),
     )
 
 
-def _levels(mission: MissionHistory) -> tuple[LevelFrom, ...]:
+def levels_of(mission: MissionHistory) -> tuple[LevelFrom, ...]:
     """The levels that were in force, each from when it was first spoken."""
     levels: list[LevelFrom] = []
     for _, record in mission.happened:

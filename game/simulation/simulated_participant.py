@@ -5,6 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
+from game.forms.items import (
+    Answer,
+    AnyQuestion,
+    ChoiceItem,
+    NumberItem,
+    ScaleItem,
+    SliderItem,
+    TextItem,
+    Weights,
+)
 from game.journal.clock import VirtualClock
 from game.journal.records import ROUNDS, Preflighted, Terminal
 from game.rescuers.driver import drive
@@ -16,7 +26,7 @@ from game.rescuers.person.quiz import labels
 from game.rescuers.person.randomness import stream
 from game.rescuers.person.responses import Respondent
 from game.study.protocol.study_session import StudySession
-from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
+from game.study.protocol.tasks import Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.study_settings import ScreenSize
 from game.study.texts import Consent, Page
 from game.world.building import Building
@@ -28,6 +38,10 @@ ANSWER_MS = 2_500
 """The time to read an item and decide on an answer."""
 UNDERSTOOD = 0.9
 """The probability of a right answer to each question of the practice check."""
+ATTENTIVE = 0.95
+"""The probability of a right answer to a question in a form that has one."""
+WRITTEN = "simulated"
+"""What they write where something must be written."""
 SECOND_ROUND_WEARINESS = 0.5
 
 
@@ -95,7 +109,7 @@ class SimulatedParticipant:
         else:
             self._legs += 1
             purpose = ("practice", self._legs)
-        second = self._round == ROUNDS[1]
+        second = self._round > ROUNDS[0]
         person = BoundedPerson(
             self._traits,
             self._map_of(task.building),
@@ -115,22 +129,20 @@ class SimulatedParticipant:
         drive(run, reader, passing=passing, done=lambda: task.done)
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
-        right = {check.id: check.right for check in self._session.study.items.check}
-        for asked in self._asked(page, sheet):
-            chance = stream(*self._seed, "check", asked.item)
-            wrong = [v for v in range(asked.low, asked.high + 1) if v != right[asked.item]]
+        for question in self._asked(page, sheet):
+            chance = stream(*self._seed, "check", question.id)
+            right = question.rights[0]
+            wrong = [v for v in range(question.least, question.most + 1) if v != right]
             understood = chance.random() < UNDERSTOOD
-            await sheet.answer(asked, right[asked.item] if understood else chance.choice(wrong))
+            await sheet.answer(question, right if understood else chance.choice(wrong))
 
-    async def slide(self, page: Page, sheet: Sheet) -> None:
-        for asked in self._asked(page, sheet):
-            value = self._respondent.slider(asked.item, self._round, self._experience())
-            await sheet.answer(asked, value)
-
-    async def rate(self, page: Page, sheet: Sheet) -> None:
-        for asked in self._asked(page, sheet):
-            value = self._respondent.likert(asked.item, self._round, self._experience())
-            await sheet.answer(asked, value)
+    async def fill(self, page: Page, sheet: Sheet) -> None:
+        for question in self._asked(page, sheet):
+            value = self._answer(question)
+            if value is not None:
+                await sheet.answer(question, value)
+            if isinstance(question, ChoiceItem) and question.has_other(value) and question.required:
+                await sheet.write_other(question, WRITTEN)
 
     async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
         self._read(page)
@@ -147,9 +159,6 @@ class SimulatedParticipant:
     def _round(self) -> int:
         return self._session.step.round
 
-    def _experience(self) -> Experience:
-        return self._experiences[self._round]
-
     def _memorise(self, building: Building, looked_ms: int) -> None:
         chance = stream(*self._seed, "map", building.name, self._round)
         self._maps[building.name] = memorised(building, looked_ms, self._traits, chance)
@@ -157,13 +166,44 @@ class SimulatedParticipant:
     def _map_of(self, building: Building) -> MapMemory:
         return self._maps.get(building.name) or nothing_memorised(building)
 
-    def _asked(self, page: Page, sheet: Sheet) -> Iterator[Asked]:
+    def _asked(self, page: Page, sheet: Sheet) -> Iterator[AnyQuestion]:
         """The questions still to be answered, each after the time it takes to answer."""
         self._read(page)
         sheet.begin()
-        for asked in sheet.missing:
+        met = {it.id for it in sheet.asked if sheet.answered(it)}
+        while (question := next((it for it in sheet.asked if it.id not in met), None)) is not None:
+            met.add(question.id)
             self._pass(ANSWER_MS)
-            yield asked
+            yield question
+
+    def _answer(self, question: AnyQuestion) -> Answer | None:
+        """An answer; what is no slider or scale is answered at random, and rightly if there is a
+        right answer. TextItem are written only where they must be."""
+        step = self._session.step
+        occasion = step.round or (0 if "." not in step.phase else step.phase)
+        happened = self._experiences.get(step.round)
+        chance = stream(*self._seed, "answer", question.id, occasion)
+        if question.right is not None and chance.random() < ATTENTIVE:
+            several = isinstance(question, ChoiceItem) and question.several
+            return question.rights if several else question.rights[0]
+        weights = None
+        if isinstance(question, SliderItem | ScaleItem):
+            weights = question.weights or (Weights(valence=-1) if question.reverse else None)
+        match question:
+            case SliderItem():
+                ends = question.least, question.most
+                return self._respondent.slider(question.id, occasion, happened, ends, weights)
+            case ScaleItem():
+                return self._respondent.scale(
+                    question.id, occasion, happened, question.most, weights
+                )
+            case ChoiceItem(several=True):
+                positions = range(question.least, question.most + 1)
+                return tuple(n for n in positions if chance.random() < 0.5) or (question.least,)
+            case ChoiceItem() | NumberItem():
+                return chance.randint(question.least, question.most)
+            case TextItem():
+                return WRITTEN[: question.length] if question.required else None
 
     def _read(self, page: Page) -> None:
         words = len(page.title.split()) + len(page.body.split())

@@ -11,18 +11,22 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from game.coach.yoke import Yoke
 from game.journal.clock import SIMULATED_EPOCH_MS, VirtualClock
 from game.journal.folders import JOURNAL
 from game.journal.records import StudyMode
 from game.journal.sink import FileSink, MemorySink, Sink
 from game.rescuers.person import Population
+from game.simulation.donor import simulated_donor
 from game.simulation.dropped_line import AWAY_MS, DroppingClock, HungUp, drop_of
 from game.simulation.leaver import Leaver, pages_before_leaving
 from game.simulation.simulated_participant import SimulatedParticipant
+from game.study.design import PAPER, Design
 from game.study.folder import LEDGER, Identity, Study
 from game.study.ledger import Ledger, LedgerEntry, SessionEnding, SlotTaken
 from game.study.protocol.conduct import Participant, conduct
 from game.study.protocol.study_session import StudySession, open_session, session_seed
+from game.world.building import Building
 
 _NO_FOLDER = Path(os.devnull)
 """The folder of a session that is returned instead of written; there is nothing in it."""
@@ -113,7 +117,15 @@ class _HeldSlot(Ledger):
     def agree(self, inputs: Mapping[str, str]) -> None:
         pass
 
-    def allocate(self, participant: str, mode: StudyMode, *, refill: bool = False) -> SlotTaken:
+    def allocate(
+        self,
+        participant: str,
+        mode: StudyMode,
+        *,
+        refill: bool = False,
+        design: Design = PAPER,
+        places: int | None = None,
+    ) -> SlotTaken:
         return self._taken
 
     def end_session(self, participant: str, mode: StudyMode, ending: SessionEnding) -> None:
@@ -128,6 +140,14 @@ class HeldStudy(Study):
 
     def keep_copies(self) -> None:
         pass
+
+    def yoke_for(self, identity: Identity, building: Building) -> Yoke:
+        """The levels that another simulated person was told: sessions are made at the same time,
+        so none of them could be waited for."""
+        other = next(it for it in self.settings.pair if not it.takes("yoke"))
+        who = self.settings.seed, identity.participant, "donor", building.name
+        memorise_ms = self.settings.memorise_ms(self.taken.cell.memorise)
+        return simulated_donor(self.settings, other, building, memorise_ms, who)
 
     @property
     def ledger(self) -> Ledger:

@@ -43,7 +43,8 @@ def simulate(
     ledger.agree(study.inputs)
     study.keep_copies()
     _same_people(study, population)
-    slots = [ledger.allocate(name, "simulated") for name in names(participants)]
+    design = study.settings.design
+    slots = [ledger.allocate(it, "simulated", design=design) for it in names(participants)]
     finished = [taken for taken in slots if _journal_of(study, taken).exists()]
     for taken in finished:
         _end(ledger, taken, _journal_of(study, taken).read_bytes())

@@ -1,6 +1,6 @@
 """A study's folder: its settings, texts, buildings, ledger and sessions.
 
-DIR/study.toml, texts.toml, items.toml, instructions.toml      edited by the lab
+DIR/study.toml, texts.toml, forms.toml, instructions.toml      edited by the lab
 DIR/ledger.jsonl                            who was allocated what
 DIR/versions/                               every version of what sessions were made from
 DIR/sessions/MODE/PARTICIPANT/journal.jsonl and lock
@@ -14,6 +14,7 @@ import pwd
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from hashlib import sha256
 from importlib import resources
 from pathlib import Path
@@ -23,10 +24,15 @@ from typing import NamedTuple
 from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.instructions.phrasebook_file import english, parse_phrasebook
 from game.coach.spec import DEFAULT_PRESET
+from game.coach.yoke import Yoke
 from game.errors import AnaError, did_you_mean
+from game.forms.form import Forms
+from game.forms.reading import FORMS, paper_text, read_forms
 from game.journal.folders import SESSIONS
 from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
+from game.study.course import Course, course
+from game.study.donors import donated
 from game.study.languages import ENGLISH, Translation
 from game.study.ledger import (
     Ledger,
@@ -44,12 +50,13 @@ from game.study.study_settings import (
     StudySettings,
     read_settings,
 )
-from game.study.texts import Items, Texts, read_items, read_texts
+from game.study.texts import Texts, read_texts
+from game.tables.asked import asked_columns
 from game.world import load_building
 from game.world.building import Building
 from game.world.fitness import shortcomings
 
-SETTINGS, TEXTS, ITEMS, LEDGER = "study.toml", "texts.toml", "items.toml", "ledger.jsonl"
+SETTINGS, TEXTS, LEDGER = "study.toml", "texts.toml", "ledger.jsonl"
 INSTRUCTIONS = "instructions.toml"
 """What the instructors say; older folders lack it, and mean the shipped English."""
 VERSIONS = "versions"
@@ -85,12 +92,19 @@ class Study:
     settings: StudySettings
     copy: StudyCopy
     texts: Texts
-    items: Items
+    forms: Forms
     phrases: Phrasebook
-    buildings: tuple[Building, Building]
+    buildings: tuple[Building, ...]
     practice: Building
     inputs: Mapping[str, str]
     """The SHA-256 of everything that a session is made from, by name."""
+    notes: tuple[str, ...] = ()
+    """What the experimenter should know of the files."""
+
+    @cached_property
+    def course(self) -> Course:
+        """The steps of every session."""
+        return course(self.forms, self.settings)
 
     @property
     def version(self) -> str:
@@ -131,6 +145,13 @@ class Study:
     def home(self, identity: Identity) -> Path:
         """The folder of one participant's session."""
         return self.folder / SESSIONS / identity.mode / identity.participant
+
+    def yoke_for(self, identity: Identity, building: Building) -> Yoke:
+        """The levels that a yoked instructor repeats for a participant in a building."""
+        other = next(it for it in self.settings.pair if not it.takes("yoke"))
+        modes: tuple[StudyMode, ...] = (identity.mode, "pilot")
+        seed = self.settings.seed
+        return donated(self.folder, modes, identity.participant, building, other, seed)
 
     def building(self, name: str) -> Building:
         """The mission building that the settings call `name`."""
@@ -241,8 +262,8 @@ def new_study(
     template = resources.files("game.study") / "template"
     try:
         make_folders(folder)
-        for name in (SETTINGS, TEXTS, ITEMS):
-            text = template.joinpath(name).read_text(encoding="utf-8")
+        for name in (SETTINGS, TEXTS, FORMS):
+            text = paper_text() if name == FORMS else (template / name).read_text("utf-8")
             if name == SETTINGS:
                 chosen = {"preset": preset, "coach": coach}
                 ending = ".txt" if translation else ""
@@ -251,7 +272,10 @@ def new_study(
             _write_new(folder / name, text)
         _write_new(folder / INSTRUCTIONS, english().text)
         if translation is not None:
-            for name, text in translation.files(_BUILDINGS.values()).items():
+            for name, text in translation.texts.items():
+                if (folder / name).exists():
+                    _write_new(folder / name, text)
+            for name, text in translation.buildings(_BUILDINGS.values()).items():
                 _write_new(folder / name, text)
     except OSError as error:
         raise StudyError(
@@ -275,26 +299,29 @@ def open_study(folder: Path) -> Study:
     settings, digest = read_settings(path)
     entries = Ledger(folder / LEDGER).entries()
     _same_as_created(settings, entries, path)
-    texts, items = read_texts(folder / TEXTS), read_items(folder / ITEMS)
+    texts = read_texts(folder / TEXTS)
+    forms, asked, note = read_forms(folder, texts.form_pages)
+    asked_columns(forms)
     phrases = read_phrasebook(folder / INSTRUCTIONS)
-    first, second = (_building(folder, name) for name in settings.buildings)
+    buildings = tuple(_building(folder, name) for name in settings.buildings)
     practice = _building(folder, settings.practice_building)
     study = Study(
         folder=folder,
         settings=settings,
         copy=StudyCopy(path.read_text(encoding="utf-8-sig"), digest),
         texts=texts,
-        items=items,
+        forms=forms,
         phrases=phrases,
-        buildings=(first, second),
+        buildings=buildings,
         practice=practice,
         inputs={
             SETTINGS: digest,
             TEXTS: _digest(folder / TEXTS),
-            ITEMS: _digest(folder / ITEMS),
+            asked: _digest(folder / asked),
             **_digest_if_there(folder / INSTRUCTIONS),
-            **{name_of(building): building.hash for building in (first, second, practice)},
+            **{name_of(building): building.hash for building in (*buildings, practice)},
         },
+        notes=(note,) if note else (),
     )
     for building in (*study.buildings, study.practice):
         _check_map(building, settings.screen)
@@ -302,7 +329,7 @@ def open_study(folder: Path) -> Study:
 
 
 def amend(folder: Path, why: str) -> tuple[str, ...]:
-    """Record that settings, texts, items or buildings were changed on purpose; returns which.
+    """Record that settings, texts, forms or buildings were changed on purpose; returns which.
 
     Raises StudyError if none has changed.
     """
@@ -364,7 +391,7 @@ def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], 
             place=str(path.with_name(LEDGER)),
             hint="Restore the ledger from a backup",
         )
-    for name in ("seed", "blocks"):
+    for name in ("seed",) if settings.places else ("seed", "blocks"):
         asked, fixed = getattr(settings, name), getattr(created, name)
         if asked != fixed:
             raise SettingsError(

@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from game.errors import AnaError, disk_hint
 from game.journal.records import StudyMode
-from game.study.design import BLOCK, DesignCell, design_cell
+from game.study.design import PAPER, Design, DesignCell
 
 SessionEnding = Literal["finished", "declined", "withdrawn", "dropped", "turned_away"]
 
@@ -77,7 +77,7 @@ class CameBack(LedgerLine, frozen=True, tag="came_back"):
 
 
 class SettingsAmended(LedgerLine, frozen=True, tag="settings_amended"):
-    """What sessions are made from, from now on: the SHA-256 of study.toml, texts.toml, items.toml
+    """What sessions are made from, from now on: the SHA-256 of study.toml, texts.toml, forms.toml
     and every building by name, and which of them `changed`."""
 
     settings_hash: str
@@ -140,10 +140,19 @@ class Ledger:
             ) from error
         return tuple(self._decoded(data))
 
-    def allocate(self, participant: str, mode: StudyMode, *, refill: bool = False) -> SlotTaken:
+    def allocate(
+        self,
+        participant: str,
+        mode: StudyMode,
+        *,
+        refill: bool = False,
+        design: Design = PAPER,
+        places: int | None = None,
+    ) -> SlotTaken:
         """The participant's slot: the one they already hold, or the next free one of the mode.
 
-        With `refill`, the slots of people who dropped out or withdrew are given out first.
+        `places` are all that there are, as many as the blocks of `design` have if not said. With
+        `refill`, the slots of people who dropped out or withdrew are given out first.
         Raises NoPlace if every live slot is taken or the study is closed.
         """
         with self._locked() as write:
@@ -151,17 +160,25 @@ class Ledger:
             held = slot_of(entries, participant, mode)
             if held is not None:
                 return held
-            slot, refilled = self._free_slot(entries, mode, refill)
-            cell = design_cell(self._created(entries).seed, mode, slot)
+            slot, refilled = self._free_slot(entries, mode, refill, design, places)
+            cell = design.cell(self._created(entries).seed, mode, slot)
             return write(
                 SlotTaken(participant=participant, mode=mode, slot=slot, cell=cell, refill=refilled)
             )
 
-    def see_place(self, participant: str, mode: StudyMode, *, refill: bool = False) -> None:
+    def see_place(
+        self,
+        participant: str,
+        mode: StudyMode,
+        *,
+        refill: bool = False,
+        design: Design = PAPER,
+        places: int | None = None,
+    ) -> None:
         """Raise NoPlace if `allocate` would. Nothing is written."""
         entries = self.entries()
         if slot_of(entries, participant, mode) is None:
-            self._free_slot(entries, mode, refill)
+            self._free_slot(entries, mode, refill, design, places)
 
     def end_session(self, participant: str, mode: StudyMode, ending: SessionEnding) -> None:
         """Record how a session ended; repeating the same ending writes nothing."""
@@ -229,10 +246,15 @@ class Ledger:
                 write(StudyClosed())
 
     def _free_slot(
-        self, entries: Sequence[LedgerEntry], mode: StudyMode, refill: bool
+        self,
+        entries: Sequence[LedgerEntry],
+        mode: StudyMode,
+        refill: bool,
+        design: Design,
+        places: int | None,
     ) -> tuple[int, bool]:
         """The next slot of a mode, and whether someone else had it before. Raises NoPlace."""
-        places = self._created(entries).blocks * BLOCK
+        places = places or self._created(entries).blocks * design.block
         if mode == "live" and is_closed(entries):
             raise NoPlace("the study is closed", place=str(self.path), hint="Create a new study")
         slot, refilled = _next_slot(entries, mode, refill)

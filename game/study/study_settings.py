@@ -7,21 +7,19 @@ import tomllib
 from dataclasses import fields
 from hashlib import sha256
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 import msgspec
 
+from game.coach.acts import Level
 from game.coach.own import SEPARATOR
 from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
 from game.coach.spec import DEFAULT_PRESET
 from game.errors import AnaError, did_you_mean
+from game.study.design import Design
+from game.study.instructors import Instructor, instructor_named
 from game.world.settings import MissionSettings
-
-PrimaryOutcome = Literal[
-    "victims", "engagement", "confidence", "frustration", "confusion", "preference"
-]
-
 
 ADAPTIVE = "ana"
 """The usual adaptive instructor."""
@@ -66,9 +64,10 @@ class InterruptionRules(_Section, frozen=True):
 
 
 class Primary(_Section, frozen=True):
-    """The outcomes and the multiple-test correction chosen before any data are collected."""
+    """The outcomes and the multiple-test correction chosen before any data are collected: victims,
+    and whatever forms.toml asks after each mission."""
 
-    outcomes: tuple[PrimaryOutcome, ...] = ("engagement", "victims")
+    outcomes: tuple[str, ...] = ("engagement", "victims")
     correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
 
 
@@ -92,17 +91,33 @@ class WebSettings(_Section, frozen=True):
             raise ValueError("web.panel_id must be a name of letters, digits, _ and -")
 
 
+StudyPhase = Literal["preflight", "consent", "practice", "rounds", "preference", "debrief"]
+RoundPhase = Literal["memorise", "label", "mission"]
+MOST_ROUNDS = 6
+
+
 class StudySettings(_Section, frozen=True):
-    """All settings of a study. Raises ValueError, naming the setting, if one is out of range."""
+    """All settings of a study. Raises ValueError, naming the setting, if one is out of range.
+
+    `instructors` are the two whose missions are compared, `coach` and `preset` the second of them
+    where it is not given. `places` are all that there are to give, `blocks` how often each design
+    cell is to be filled where `places` is not given.
+    """
 
     name: str
     seed: int
-    blocks: int
-    buildings: tuple[str, str]
+    buildings: tuple[str, ...]
     practice_building: str
+    blocks: int = 1
+    places: int | None = None
     coach: str = ADAPTIVE
     preset: str = DEFAULT_PRESET
-    memorise_seconds: tuple[int, int] = (60, 180)
+    instructors: tuple[str, str] | None = None
+    static_levels: tuple[int, ...] = (1, 2, 3)
+    rounds: int = 2
+    phases: tuple[StudyPhase, ...] = get_args(StudyPhase)
+    round_phases: tuple[RoundPhase, ...] = get_args(RoundPhase)
+    memorise_seconds: tuple[int, ...] = (60, 180)
     label_seconds: int = 240
     refill_dropouts: bool = False
     least_free_mb: int = 1_000
@@ -118,24 +133,108 @@ class StudySettings(_Section, frozen=True):
         if not self.name.strip():
             raise ValueError("name must not be empty")
         _within("blocks", self.blocks, 1, 1_000)
-        short, long = self.memorise_seconds
-        _within("memorise_seconds", short, 1, 3_600)
-        _within("memorise_seconds", long, short, 3_600)
+        if self.places is not None:
+            _within("places", self.places, 1, 100_000)
+        _check_rising("memorise_seconds", self.memorise_seconds, 1, 3_600)
+        _check_rising("static_levels", self.static_levels, 1, 3)
         _within("label_seconds", self.label_seconds, 1, 3_600)
         _within("least_free_mb", self.least_free_mb, 0, 1_000_000)
         if self.preset not in PRESETS:
             raise ValueError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset}")
         if SEPARATOR not in self.coach and self.coach not in _COACHES:
             raise ValueError(f"coach must be one of {', '.join(_COACHES)}, not {self.coach}")
-        if self.buildings[0] == self.buildings[1]:
-            raise ValueError("the two buildings must differ")
+        self._check_instructors()
+        self._check_phases()
+        self._check_buildings()
         if self.mission.show_score:
             raise ValueError("mission.show_score must be false in a study")
         if self.mission.allow_pause:
             raise ValueError("mission.allow_pause must be false in a study")
 
-    def memorise_ms(self, long: bool) -> int:
-        return self.memorise_seconds[long] * 1000
+    def _check_instructors(self) -> None:
+        if self.instructors is None:
+            return
+        if self.coach != ADAPTIVE:
+            raise ValueError("coach and instructors both name an instructor; keep instructors")
+        first, second = self.instructors
+        if first == second:
+            raise ValueError("the two instructors must differ")
+        for one, other in ((self.pair[0], self.pair[1]), (self.pair[1], self.pair[0])):
+            if one.takes("yoke") and not other.takes("preset"):
+                raise ValueError("instructors: yoked repeats the levels of ana, so it goes with it")
+            if one.takes("quiz") and "label" not in self.round_phases:
+                raise ValueError(f"instructors: {one.kind} needs the round phase label")
+
+    def _check_phases(self) -> None:
+        for name, phases in (("phases", self.phases), ("round_phases", self.round_phases)):
+            for phase in phases:
+                if phases.count(phase) > 1:
+                    raise ValueError(f"{name} has {phase} twice")
+        for needed in ("consent", "rounds", "debrief"):
+            if needed not in self.phases:
+                raise ValueError(f"phases must have {needed}")
+        if "mission" not in self.round_phases:
+            raise ValueError("round_phases must have mission")
+        order = {phase: place for place, phase in enumerate(self.phases)}
+        after: tuple[tuple[str, str], ...] = (
+            ("preflight", "consent"),
+            ("consent", "practice"),
+            ("consent", "rounds"),
+            ("rounds", "preference"),
+            *((phase, "debrief") for phase in self.phases if phase != "debrief"),
+        )
+        for before, later in after:
+            if before in order and later in order and order[before] > order[later]:
+                raise ValueError(f"phases must have {before} before {later}")
+        if self.round_phases.index("mission") < len(self.round_phases) - 1:
+            raise ValueError("round_phases must end with mission")
+
+    def _check_buildings(self) -> None:
+        _within("rounds", self.rounds, 1, MOST_ROUNDS)
+        if len(self.buildings) < self.rounds:
+            raise ValueError(
+                f"there are {self.rounds} rounds and {len(self.buildings)} buildings; name one for "
+                "each round"
+            )
+        if len(set(self.buildings)) < len(self.buildings):
+            two = len(self.buildings) == 2
+            raise ValueError(f"the {'two ' if two else ''}buildings must differ")
+
+    @property
+    def pair(self) -> tuple[Instructor, Instructor]:
+        """The two instructors."""
+        names = self.instructors or ("static", self.coach)
+        first, second = (instructor_named(name) for name in names)
+        return first, second
+
+    @property
+    def design(self) -> Design:
+        """What is crossed. A factor that changes nothing has one value: the static level where no
+        instructor takes it, the memorise time where nothing is memorised."""
+        levels = [Level(level) for level in self.static_levels]
+        if not any(instructor.by_design for instructor in self.pair):
+            levels = levels if len(levels) == 1 else [Level.C2]
+        memorise = len(self.memorise_seconds) if "memorise" in self.round_phases else 1
+        return Design(memorise, tuple(levels), len(self.buildings))
+
+    @property
+    def all_places(self) -> int:
+        """How many live places there are."""
+        return self.places or self.blocks * self.design.block
+
+    def memorise_ms(self, which: int) -> int:
+        """How long the map is shown, by the place of the time in `memorise_seconds`; 0 where
+        nothing is memorised."""
+        return self.memorise_seconds[which] * 1000 if "memorise" in self.round_phases else 0
+
+
+def _check_rising(name: str, values: tuple[int, ...], low: int, high: int) -> None:
+    if not values:
+        raise ValueError(f"{name} must not be empty")
+    for value in values:
+        _within(name, value, low, high)
+    if list(values) != sorted(set(values)):
+        raise ValueError(f"{name} must rise from each to the next: {list(values)}")
 
 
 def read_settings(path: Path) -> tuple[StudySettings, str]:

@@ -2,48 +2,45 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 
 from game.coach.acts import Level
 from game.errors import AnaError
+from game.forms.checks import told_apart
+from game.forms.placeholders import check_placeholders
+from game.forms.reading import Pages
 from game.mission_words import MissionWords
-from game.study.placeholders import check_placeholders
 from game.world.events import LevelWish
 
-LIKERT_POINTS = 5
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
 """Tables that older texts.toml files lack: the shipped ones are used instead."""
 LATER_WORDS = (
     "fault", "decline_title", "decline_text", "more_below", "too_long", "paste_too_long",
     "clock_stopped", "mission_goes_on", "leave_now", "mission",
+    "mark", "write", "whole_number",
 )  # fmt: skip
 """Small words that they lack."""
 
 
+EARLIER_PAGES = {
+    "mental_state": {"title": "", "body": "{instructor}"},
+    "likert": {"title": "", "body": "{instructor}"},
+    "check": {"title": "", "body": ""},
+}
+"""Pages that texts.toml had before forms had their own words, and what could be filled in."""
+
+
 class TextsError(AnaError):
-    """A file of texts or items cannot be used as it is."""
+    """The file of texts cannot be used as it is."""
 
 
 class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     pass
-
-
-def _not_empty(what: str, *texts: str) -> None:
-    if not all(text.strip() for text in texts):
-        raise ValueError(f"{what} must not be empty")
-
-
-def _told_apart(what: str, *texts: str) -> None:
-    """Raise ValueError unless all are there and different."""
-    _not_empty(what, *texts)
-    if len({text.strip().casefold() for text in texts}) < len(texts):
-        raise ValueError(f"{what} must differ from each other")
 
 
 class Page(_Part, frozen=True):
@@ -58,7 +55,7 @@ class Consent(Page, frozen=True):
     decline: str
 
     def __post_init__(self) -> None:
-        _told_apart("the answers", self.agree, self.decline)
+        told_apart("the answers", self.agree, self.decline)
 
 
 class InstructorNames(_Part, frozen=True):
@@ -68,7 +65,7 @@ class InstructorNames(_Part, frozen=True):
     second: str
 
     def __post_init__(self) -> None:
-        _told_apart("the names of the instructors", self.first, self.second)
+        told_apart("the names of the instructors", self.first, self.second)
 
     def of(self, round_: int) -> str:
         """The instructor of round 1 or 2."""
@@ -171,6 +168,9 @@ class ScreenWords(_Part, frozen=True):
     clock_stopped: str
     mission_goes_on: str
     leave_now: str
+    mark: str
+    write: str
+    whole_number: str
     size_fine: str
     press_keys: str
     keys_fine: str
@@ -212,7 +212,6 @@ class Texts(_Part, frozen=True):
     declined: Page
     practice: Page
     lessons: Lessons
-    check: Page
     check_right: Page
     check_wrong: Page
     memorise: Page
@@ -220,8 +219,6 @@ class Texts(_Part, frozen=True):
     mission: Page
     cut_off: CutOff
     level_key: LevelKeyWords
-    mental_state: Page
-    likert: Page
     preference: Page
     reason: Page
     debrief: Page
@@ -229,80 +226,18 @@ class Texts(_Part, frozen=True):
     units: Units
     words: ScreenWords
     browser: BrowserWords
+    check: Page | None = None
+    mental_state: Page | None = None
+    likert: Page | None = None
 
-
-class Slider(_Part, frozen=True):
-    """A question answered from 1 (`low`) to 100 (`high`)."""
-
-    id: str
-    text: str
-    low: str
-    high: str
-
-    def __post_init__(self) -> None:
-        _not_empty("text", self.text)
-        _told_apart("low and high", self.low, self.high)
-
-
-class Statement(_Part, frozen=True):
-    id: str
-    text: str
-
-    def __post_init__(self) -> None:
-        _not_empty("text", self.text)
-
-
-class AnswerScale(_Part, frozen=True):
-    """The names of the five points, from least to most agreement."""
-
-    answers: tuple[str, ...]
-
-    def __post_init__(self) -> None:
-        if len(self.answers) != LIKERT_POINTS:
-            raise ValueError(
-                f"the scale must have {LIKERT_POINTS} answers, not {len(self.answers)}"
-            )
-        _told_apart("the answers", *self.answers)
-
-
-class CheckQuestion(_Part, frozen=True):
-    """A question of the practice check; `right` is the position of the right answer, from 1."""
-
-    id: str
-    text: str
-    answers: tuple[str, ...]
-    right: int
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.right <= len(self.answers):
-            raise ValueError(f"right must be between 1 and {len(self.answers)}, not {self.right}")
-        _not_empty("text", self.text)
-        _told_apart("the answers", *self.answers)
-
-
-class Items(_Part, frozen=True):
-    """items.toml."""
-
-    version: str
-    slider: tuple[Slider, ...]
-    statement: tuple[Statement, ...]
-    scale: AnswerScale
-    check: tuple[CheckQuestion, ...]
-
-    def __post_init__(self) -> None:
-        asked: tuple[Slider | Statement | CheckQuestion, ...] = (
-            *self.slider,
-            *self.statement,
-            *self.check,
-        )
-        ids = [item.id for item in asked]
-        for identifier in ids:
-            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", identifier):
-                raise ValueError(
-                    f"an id must be letters, digits and _, and begin with a letter: '{identifier}'"
-                )
-            if ids.count(identifier) > 1:
-                raise ValueError(f"two items have the id {identifier}")
+    @property
+    def form_pages(self) -> Pages | None:
+        """What the forms in items.toml of an earlier study stood on; in new studies each form in
+        forms.toml has its own words."""
+        if self.mental_state is None or self.likert is None or self.check is None:
+            return None
+        pages = self.mental_state, self.likert, self.check
+        return Pages(*((page.title, page.body) for page in pages))
 
 
 def filled(page: Page, **facts: str) -> Page:
@@ -323,37 +258,16 @@ def followed(page: Page, more: str) -> Page:
     return Page(title=page.title, body=f"{page.body.strip()}\n\n{more}")
 
 
-_Read = TypeVar("_Read", Texts, Items)
-
-
 def read_texts(path: Path) -> Texts:
     """Raises TextsError, naming the file and the key."""
     shipped = _shipped_tree()
     words = {name: shipped["words"][name] for name in LATER_WORDS}
-    return _read(path, Texts, {name: shipped[name] for name in LATER_TEXTS}, words)
-
-
-def shipped_texts() -> Texts:
-    """The texts of a new study."""
-    return msgspec.convert(_shipped_tree(), Texts)
-
-
-def read_items(path: Path) -> Items:
-    """Raises TextsError, naming the file and the key."""
-    return _read(path, Items, {}, {})
-
-
-def _shipped_tree() -> dict[str, Any]:
-    shipped = resources.files("game.study") / "template" / "texts.toml"
-    return tomllib.loads(shipped.read_text(encoding="utf-8"))
-
-
-def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[str, Any]) -> _Read:
     try:
-        tree = otherwise | tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        tree = {name: shipped[name] for name in LATER_TEXTS}
+        tree |= tomllib.loads(path.read_text(encoding="utf-8-sig"))
         if isinstance(tree.get("words"), dict):
             tree["words"] = words | tree["words"]
-        read = msgspec.convert(tree, kind)
+        read = msgspec.convert(tree, Texts)
     except OSError as error:
         raise TextsError(
             f"the file cannot be read ({error.strerror})",
@@ -364,6 +278,15 @@ def _read(path: Path, kind: type[_Read], otherwise: dict[str, Any], words: dict[
         raise TextsError(
             str(error), place=str(path), hint="Compare the file with the one in a new study folder"
         ) from error
-    if kind is Texts:
-        check_placeholders(tree, _shipped_tree(), str(path))
+    check_placeholders(tree, shipped | EARLIER_PAGES, str(path))
     return read
+
+
+def shipped_texts() -> Texts:
+    """The texts of a new study."""
+    return msgspec.convert(_shipped_tree(), Texts)
+
+
+def _shipped_tree() -> dict[str, Any]:
+    shipped = resources.files("game.study") / "template" / "texts.toml"
+    return tomllib.loads(shipped.read_text(encoding="utf-8"))

@@ -64,7 +64,7 @@ def cell(value: object) -> str:
 def _described(name: str, hint: Any) -> TableColumn:
     if get_origin(hint) is not Annotated:
         raise TypeError(f"the column {name} is not described")
-    kind, meta = get_args(hint)
+    kind, *_, meta = get_args(hint)
     kinds = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
     known = [one for one in kinds if one is not type(None)]
     values = " or ".join(_values(one) for one in known)

@@ -216,7 +216,8 @@ class RoundRow(TableRow, frozen=True):
 
 
 class ItemRow(TableRow, frozen=True):
-    """One row per question with numbered answers; the last answer counts."""
+    """One row per question with one numbered answer; the last answer counts. Of a question that can
+    have several, each answer is a column of `participants` or `rounds`."""
 
     participant: _Participant
     phase: _Phase
@@ -401,3 +402,5 @@ class FreeTextRow(TableRow, frozen=True):
     text: _Text
     answer: _Answer
     response_ms: _ResponseMs
+    phase: _Phase = "preference"
+    round: _Round = 0

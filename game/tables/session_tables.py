@@ -8,14 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import lru_cache
+from typing import Any, cast
 
 import msgspec
 
+from game.forms.form import Forms
+from game.forms.reading import paper_forms
 from game.journal.history import History, PhaseSpan, Step, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
-from game.journal.records import ROUNDS, Allocated, Phase
+from game.journal.records import Allocated, ProtocolPhase
+from game.tables.asked import FAILED, asked_columns, attention_failed, wider
 from game.tables.mission_tables import MissionTables, level_name
 from game.tables.rows import (
     ActionRow,
@@ -40,7 +44,7 @@ from game.world.reading import parse_building
 
 MENTAL_STATES = ("engagement", "confidence", "frustration", "confusion")
 LIKERT_ITEMS = ("pref1", "pref2", "pref3", "pref4")
-TIMED: tuple[Phase, ...] = ("memorise", "label", "mission")
+TIMED: tuple[ProtocolPhase, ...] = ("memorise", "label", "mission")
 MS_PER_MINUTE = 60_000
 
 
@@ -93,25 +97,44 @@ def combined(sessions: Iterable[Tables]) -> Tables:
     return replace(Tables(), **joined)
 
 
-def session_tables(transcript: Transcript, buildings: dict[str, Building] | None = None) -> Tables:
-    """The rows of one session of a study. Practice is left out, except for its check.
+@lru_cache(8)
+def row_types(forms: Forms) -> dict[str, type[TableRow]]:
+    """The row type of each table of a study that asks these forms. Raises FormsError where an id is
+    the name of another column."""
+    attention = any(it.role == "attention" for form in forms.forms for it in form.questions)
+    return wider(ROW_TYPES, asked_columns(forms), attention=attention)
+
+
+def session_tables(
+    transcript: Transcript,
+    buildings: dict[str, Building] | None = None,
+    forms: Forms | None = None,
+) -> Tables:
+    """The rows of one session of a study that asks `forms`, the paper's if not said. Practice is
+    left out, except for its check.
 
     `buildings`, keyed by their text, are filled as they are met: a caller with many sessions passes
     the same dict, so that each building is parsed once. Raises JournalError for a journal that has
     rounds but no allocation.
     """
-    return _Session(transcript, {} if buildings is None else buildings).tables()
+    known = {} if buildings is None else buildings
+    return _Session(transcript, known, forms or paper_forms()).tables()
 
 
-def tables_of(transcripts: Iterable[Transcript]) -> Iterator[Tables]:
+def tables_of(transcripts: Iterable[Transcript], forms: Forms | None = None) -> Iterator[Tables]:
     """The rows of each session of a study."""
     buildings: dict[str, Building] = {}
-    return (session_tables(transcript, buildings) for transcript in transcripts)
+    return (session_tables(transcript, buildings, forms) for transcript in transcripts)
 
 
 class _Session:
-    def __init__(self, transcript: Transcript, buildings: dict[str, Building]) -> None:
+    def __init__(
+        self, transcript: Transcript, buildings: dict[str, Building], forms: Forms
+    ) -> None:
         self._buildings = buildings
+        self._forms = forms
+        self._columns = asked_columns(forms)
+        self._types = row_types(forms)
         self.started = transcript.started
         self.history: History = read_history(transcript)
         self.source = transcript.source
@@ -127,7 +150,7 @@ class _Session:
                 mission,
             )
             for mission in self.history.missions
-            if mission.step.phase == "mission" and mission.step.round in ROUNDS
+            if mission.step.phase == "mission" and mission.step.round
         }
 
     def _building(self, text: str) -> Building:
@@ -138,8 +161,7 @@ class _Session:
     @property
     def rounds(self) -> Iterator[int]:
         """The rounds that were started."""
-        begun = {step.round for step in self.history.phases}
-        return (number for number in ROUNDS if number in begun)
+        return iter(sorted({step.round for step in self.history.phases if step.round}))
 
     @property
     def allocated(self) -> Allocated:
@@ -152,8 +174,7 @@ class _Session:
         return self.history.allocated
 
     def adaptivity(self, round_: int) -> InstructorKind:
-        first = self.allocated.adaptive_first is (round_ == ROUNDS[0])
-        return "adaptive" if first else "static"
+        return "adaptive" if self.allocated.second_leads(round_) else "static"
 
     def tables(self) -> Tables:
         missions = tuple(self.missions.values())
@@ -178,7 +199,14 @@ class _Session:
         history, allocated = self.history, self.history.allocated
         terminal, practice = history.terminal, history.practice
         kinds = self.disobeyed(self.missions.values())
-        return ParticipantRow(
+        two = allocated is not None and len(allocated.buildings) > 1
+        asked = {it.name: it.value(history, 0) for it in self._columns if it.table != "rounds"}
+        failed = attention_failed(self._forms, history)
+        if failed is not None:
+            asked[FAILED] = failed
+        kind = cast("type[ParticipantRow]", self._types["participants"])
+        return kind(
+            **asked,
             participant=self.participant,
             mode=self.started.mode,
             simulated=self.started.simulated,
@@ -192,7 +220,7 @@ class _Session:
             order=_order(allocated) if allocated else None,
             memorise_minutes=allocated.memorise_ms / MS_PER_MINUTE if allocated else None,
             first_building=allocated.buildings[0] if allocated else None,
-            second_building=allocated.buildings[1] if allocated else None,
+            second_building=allocated.buildings[1] if allocated and two else None,
             quiz_static=self.quiz_before("static"),
             quiz_adaptive=self.quiz_before("adaptive"),
             disobeyed=len(kinds),
@@ -241,7 +269,8 @@ class _Session:
         timed = {phase: history.phases.get(Step(phase, round_)) for phase in TIMED}
         void = history.is_void(round_)
         quiz = history.quizzes.get(round_)
-        empty = dict.fromkeys(RoundRow.__struct_fields__)
+        kind = cast("type[RoundRow]", self._types["rounds"])
+        empty = dict.fromkeys(kind.__struct_fields__)
         given = self.answers(round_, void) | self.played(round_, void)
         return msgspec.convert(
             empty
@@ -268,22 +297,15 @@ class _Session:
             }
             | {f"{phase}_exposure_ms": _exposure(span) for phase, span in timed.items()}
             | {"mission_covered_ms": _covered(timed["mission"])},
-            RoundRow,
+            kind,
         )
 
-    def answers(self, round_: int, void: bool) -> dict[str, int | None]:
-        """The sliders and statements, and the sum of the statements if all were answered."""
+    def answers(self, round_: int, void: bool) -> dict[str, float | int | bool | None]:
+        """What was answered after the mission, and what is computed from it."""
         if void:
             return {}
-        named = (*MENTAL_STATES, *LIKERT_ITEMS)
-        values = {
-            item: answer.value
-            for (step, item), answer in self.history.items.items()
-            if step.round == round_ and item in named
-        }
-        whole = all(item in values for item in LIKERT_ITEMS)
-        total = sum(values[item] for item in LIKERT_ITEMS) if whole else None
-        return {**values, "preference": total}
+        columns = (it for it in self._columns if it.table == "rounds")
+        return {it.name: it.value(self.history, round_) for it in columns}
 
     def played(self, round_: int, void: bool) -> dict[str, float | int | str | None]:
         """The columns that the mission of a round adds to its row."""
@@ -354,9 +376,9 @@ class _Session:
             )
 
     def free_texts(self) -> Iterator[FreeTextRow]:
-        for text in self.history.free_texts:
+        for (step, _), text in self.history.words.items():
             if text.answer:
-                yield FreeTextRow.of(text, **self.person)
+                yield FreeTextRow.of(text, **self.person, **step._asdict())
 
 
 def _order(allocated: Allocated) -> OrderName:

@@ -9,6 +9,7 @@ import logging
 import re
 import socket
 from collections.abc import Awaitable, Callable
+from hashlib import sha256
 from importlib import resources
 from importlib.resources.abc import Traversable
 from string import Template
@@ -24,6 +25,8 @@ from game.web.hosted import MOST_MESSAGE_BYTES, Goodbye, Hosted, Line, NoRoom, R
 
 HEARTBEAT_S = 15.0
 CLOSING_S = 2.0
+REPAINT_KEYS = 20
+"""To paint everything costs about as much as so many keys."""
 _TAB = re.compile(r"[A-Za-z0-9]{8,40}")
 _OURS, _THEIRS = resources.files("game.web") / "page", "textual_serve"
 _TYPES = {
@@ -82,7 +85,8 @@ class WebServer:
             _LOGGER.exception("a request failed")
             return web.Response(status=500, text="Something went wrong.", headers=_HEADERS)
         if not response.prepared:
-            response.headers.update(_HEADERS)
+            for name, value in _HEADERS.items():
+                response.headers.setdefault(name, value)
         return response
 
     def _known(self, host: str) -> bool:
@@ -132,8 +136,14 @@ class WebServer:
         name = request.match_info["name"]
         if name not in self._files:
             raise web.HTTPNotFound
-        kind = _TYPES[name.rpartition(".")[2]]
-        return web.Response(body=self._files[name], content_type=kind)
+        body = self._files[name]
+        mark = sha256(body).hexdigest()[:16]
+        headers = _HEADERS | {"Cache-Control": "no-cache", "ETag": f'"{mark}"'}
+        if any(known.value == mark for known in request.if_none_match or ()):
+            return web.Response(status=304, headers=headers)
+        return web.Response(
+            body=body, content_type=_TYPES[name.rpartition(".")[2]], headers=headers
+        )
 
     # --- the line -------------------------------------------------------------------------------
 
@@ -190,10 +200,11 @@ class WebServer:
             kind, keys = message.data[:1], message.data[1:]
             if kind == "k":
                 hosted.press(line, keys)
-            elif not line.keys.take(1) or hosted.line is not line:
-                continue
             elif kind == "?":
-                await channel.send_str("!")
+                if line.keys.take(1):
+                    await channel.send_str("!")
+            elif hosted.line is not line or not line.keys.take(REPAINT_KEYS):
+                continue
             elif kind == "r":
                 await hosted.repaint(line)
             elif kind == "c":

@@ -26,7 +26,8 @@ def serve(
     limits: Limits | None = None,
     ready: Callable[[str], None] = lambda _: None,
 ) -> None:
-    """Serve until SIGINT or SIGTERM; every program is hung up on before this returns.
+    """Serve until SIGINT, SIGTERM or, unless that is ignored, SIGHUP; every program is hung up on
+    before this returns.
 
     `url` is the address that people reach the server at, where that is another; `ready` is called
     with the address once it listens. Raises AnaError where it cannot listen.
@@ -38,7 +39,7 @@ async def _serve(
     door: Door, host: str, port: int, url: str, limits: Limits, ready: Callable[[str], None]
 ) -> None:
     names = frozenset({host.lower(), (urlsplit(url).hostname or host).lower()})
-    server = WebServer(door, Room(limits), names, loopback=_is_loopback(host))
+    server = WebServer(door, Room(limits), names, loopback=is_loopback(host))
     runner = web.AppRunner(
         server.application(),
         access_log=None,
@@ -49,6 +50,8 @@ async def _serve(
     await runner.setup()
     stop = asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if number is signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+            continue  # nohup: it is to go on without its terminal
         asyncio.get_running_loop().add_signal_handler(number, stop.set)
     try:
         try:
@@ -60,7 +63,7 @@ async def _serve(
                 hint="Choose another with --port",
             ) from error
         number = runner.addresses[0][1]
-        ready(url or f"http://{'localhost' if _is_loopback(host) else _bracketed(host)}:{number}/")
+        ready(url or f"http://{'localhost' if is_loopback(host) else _bracketed(host)}:{number}/")
         await stop.wait()
     finally:
         await runner.cleanup()
@@ -73,7 +76,8 @@ def _nameless() -> logging.Logger:
     return logger
 
 
-def _is_loopback(host: str) -> bool:
+def is_loopback(host: str) -> bool:
+    """Whether only this computer can reach `host`."""
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:

@@ -35,7 +35,7 @@ class MissionSettings:
     """Whether the rescuer may ask the coach for simpler or shorter words."""
 
     def __post_init__(self) -> None:
-        for name, low, high in _RANGES:
+        for name, low, high in RANGES:
             value = getattr(self, name)
             if value is not None and not low <= value <= high:
                 raise ValueError(f"{name} must be between {low} and {high}, not {value}")
@@ -59,7 +59,7 @@ class MissionSettings:
         return self.points_red if severity is Severity.RED else self.points_blue
 
 
-_RANGES = (
+RANGES = (
     ("duration_ms", 1_000, 3_600_000),
     ("red_expiry_ms", 1, 3_600_000),
     ("treat_red_ms", 0, 60_000),
@@ -69,6 +69,7 @@ _RANGES = (
     ("points_red", 0, 1_000),
     ("points_blue", 0, 1_000),
 )
+"""The least and the greatest value of every setting that is a number."""
 
 FREE_PLAY = MissionSettings(level_key=True)
 """What a mission outside a study is played by, where nothing else is said."""

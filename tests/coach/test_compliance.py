@@ -232,3 +232,16 @@ def test_the_words_decide_who_may_be_treated_instead() -> None:
 
 def _floor(scene: Scene, cell: Cell) -> bool:
     return scene.building.plan.walkable(cell)
+
+
+def test_the_time_to_read_follows_the_text_in_any_language() -> None:
+    """A wide character counts as three letters, a letter with an accent as one."""
+    here, german, japanese = (
+        NOTHING_ASKED.issued(Level.C1, 5, 0, opening, notice=opening)
+        for opening in ("Turn left.", "Zur Tür...", "左へ曲がる。")
+    )
+    assert here.read_ms == READING_MS + 20 * READING_MS_PER_LETTER
+    assert here.notice_ms == NOTICE_MS + 10 * NOTICE_MS_PER_LETTER
+    assert (german.read_ms, german.notice_ms) == (here.read_ms, here.notice_ms)
+    assert japanese.read_ms == READING_MS + 36 * READING_MS_PER_LETTER
+    assert japanese.notice_ms == NOTICE_MS + 18 * NOTICE_MS_PER_LETTER

@@ -51,7 +51,7 @@ def test_the_golden_journals_satisfy_it(name: str) -> None:
         {"type": "dreamt"},
         {"seq": "four"},
         {"utc": "2026-01-01"},
-        {"phase": "lunch"},
+        {"phase": "lunch break"},
         {"at_ms": None},
         {"position": [1, 2, 3]},
     ],

@@ -379,7 +379,7 @@ def test_answers_stay_on_their_scales(
     slid = respondent.slider("confusion", 1, experience)
     assert 1 <= slid <= 100
     assert traits.coarseness < 2 / 3 or slid % 10 == 0 or slid == 1
-    assert 1 <= respondent.likert("pref1", 1, experience) <= 5
+    assert 1 <= respondent.scale("pref1", 1, experience, 5) <= 5
     assert respondent.preferred(experience, experience) in (1, 2)
 
 

@@ -25,8 +25,10 @@ from game.world.settings import MissionSettings
 from tests.session.test_real_coaches import wandered
 from tests.session.toy import opening, transcript
 
+ROOT = Path(__file__).parents[2]
 JAPANESE = parse_phrasebook(
-    Path("tests/data/japanese/instructions.toml").read_text(encoding="utf-8"), "instructions.toml"
+    (ROOT / "tests/data/japanese/instructions.toml").read_text(encoding="utf-8"),
+    "instructions.toml",
 )
 RULES = MissionSettings(duration_ms=100_000)
 COACHES = [

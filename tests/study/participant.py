@@ -18,6 +18,7 @@ from time import monotonic
 import msgspec
 
 from game.coach.acts import InstructionIssued
+from game.forms.form import Form
 from game.journal.folders import JOURNAL
 from game.journal.records import (
     Allocated,
@@ -27,11 +28,10 @@ from game.journal.records import (
     Record,
 )
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
 from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
-from game.screens.study.sliders import SlidersScreen
 from game.study.folder import Identity, Study
 from game.study.protocol.practice import practice_legs
 from game.study.protocol.study_session import CODE_LENGTH, CODE_LETTERS, session_seed
@@ -108,7 +108,7 @@ class LiveJournal:
         self._path = path
         self._offset = 0
         self._decode = msgspec.json.Decoder(Record).decode
-        self.buildings = ("", "")
+        self.buildings: tuple[str, ...] = ()
         self.missions: list[Walk] = []
         self.read_on()
 
@@ -184,16 +184,16 @@ class TerminalParticipant:
             self._enter_mission()
             assert CLOCK not in self.terminal.text()
             self.walk()
-        self._wait(self._shows(texts.check.title))
+        self._wait(self._shows(self._form("check").title))
 
     def answer_check(self, answers: Sequence[int]) -> None:
         """Give `answers`, from 1, to the questions at the end of practice."""
-        texts, checks = self.study.texts, self.study.items.check
-        titles = [texts.check.title] * (len(checks) - 1) + [texts.memorise.title]
-        for check, answer, following in zip(checks, answers, titles, strict=True):
-            told = texts.check_right if answer == check.right else texts.check_wrong
-            self._wait(self._shows(check.text))
-            self._choose(texts.check.title, answer, self._shows(told.title))
+        texts, check = self.study.texts, self._form("check")
+        titles = [check.title] * (len(check.questions) - 1) + [texts.memorise.title]
+        for question, answer, following in zip(check.questions, answers, titles, strict=True):
+            told = texts.check_right if answer == question.right else texts.check_wrong
+            self._wait(self._shows(question.text))
+            self._choose(check.title, answer, self._shows(told.title))
             self._turn_page(told.title, self._shows(following))
 
     # --- a round --------------------------------------------------------------------------------
@@ -245,19 +245,23 @@ class TerminalParticipant:
 
     def slide(self, values: Mapping[str, int]) -> None:
         """Move each slider to its value, by item."""
-        texts = self.study.texts
-        self._face(texts.mental_state.title, SlidersScreen.DEAF_S)
-        items = {slider.text: slider.id for slider in self.study.items.slider}
+        sliders, likert = self._form("sliders"), self._form("likert")
+        self._face(sliders.title, FormScreen.DEAF_S)
+        items = {slider.text: slider.id for slider in sliders.questions}
         self._answer({text: (str(values[it]), f" {values[it]} ") for text, it in items.items()})
-        self._press(self._shows(texts.likert.title), "enter")
+        self._press(self._shows(likert.title), "enter")
 
     def rate(self, values: Mapping[str, int]) -> None:
         """Rate each statement with its value, by item."""
-        items, scale = self.study.items.statement, self.study.items.scale.answers
-        self._face(self.study.texts.likert.title, LikertScreen.DEAF_S)
-        points = {it.text: values[it.id] for it in items}
+        likert = self._form("likert")
+        scale = likert.answers
+        self._face(likert.title, FormScreen.DEAF_S)
+        points = {it.text: values[it.id] for it in likert.questions}
         self._answer({text: (str(n), f"● {scale[n - 1]} ") for text, n in points.items()})
-        self._press(self._shows(self.study.texts.likert.title, no=True), "enter")
+        self._press(self._shows(likert.title, no=True), "enter")
+
+    def _form(self, name: str) -> Form:
+        return self.study.forms.occasion(name).form
 
     # --- after the rounds -----------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from typing import Literal
 
 import pytest
 
+from game.forms.items import SliderItem
 from game.journal.clock import VirtualClock
 from game.journal.history import Step
 from game.journal.reader import Transcript, read_journal
@@ -121,12 +122,12 @@ class Scripted:
     async def choose(self, page: Page, sheet: Sheet) -> None:
         await self._answer(sheet, 2)
 
-    async def slide(self, page: Page, sheet: Sheet) -> None:
-        self.slider_pages.append(page)
-        await self._answer(sheet, 42)
-
-    async def rate(self, page: Page, sheet: Sheet) -> None:
-        await self._answer(sheet, 3)
+    async def fill(self, page: Page, sheet: Sheet) -> None:
+        if any(isinstance(question, SliderItem) for question in sheet.asked):
+            self.slider_pages.append(page)
+            await self._answer(sheet, 42)
+        else:
+            await self._answer(sheet, 3)
 
     async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
         self._do("prefer")

@@ -62,7 +62,7 @@ def test_words_that_cannot_be_seen_fail_it(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
-    edit(folder, "items.toml", 'low = "', f'low = "{endless} ')
+    edit(folder, "forms.toml", 'low = "', f'low = "{endless} ')
     assert main(["study", "sshd", str(folder)]) == 0
     told = capsys.readouterr()
     assert "ForceCommand" in told.out

@@ -13,6 +13,7 @@ from msgspec import structs
 
 from game.coach.acts import CoachRecord, InstructionIssued, Level
 from game.coach.knowledge.assumed import QuizMark
+from game.forms.items import SliderItem
 from game.journal.history import History, Step, history_of, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Entry
@@ -45,7 +46,6 @@ from game.study.ledger import CameBack, NoPlace, SessionOutcome, SlotTaken, endi
 from game.study.lock import SessionBusy, SessionLock
 from game.study.protocol.conduct import Stopped, instructor, quiz_marks
 from game.study.protocol.practice import LEGS
-from game.study.protocol.timeline import TIMELINE
 from game.world import load_building
 from game.world.events import Acted
 from tests.study.people import MISSION_MS, P01, cut_off, journal_of, small_study, take_part
@@ -88,7 +88,7 @@ def answers(entries: tuple[Entry, ...]) -> dict[tuple[Step, str], object]:
 def test_a_session_passes_every_phase_in_order_and_ends(finished: Study) -> None:
     entries = journal_of(finished).entries
     ended = [step_of(entry) for entry in entries if isinstance(entry.record, PhaseEnded)]
-    assert ended == list(TIMELINE)
+    assert ended == list(finished.course)
     assert set(endings(finished).values()) == {"completed"}
     assert entries[-1].record == SessionEnded("finished")
     assert history_of((entry.envelope, entry.record) for entry in entries).over
@@ -99,10 +99,9 @@ def test_a_session_passes_every_phase_in_order_and_ends(finished: Study) -> None
 def test_every_question_is_answered(finished: Study) -> None:
     asked = records(finished, QuestionnaireAnswer)
     count = Counter(answer.item for answer in asked)
-    items = finished.items
-    asked_twice = [slider.id for slider in items.slider] + [it.id for it in items.statement]
-    assert all(count[item] == 2 for item in asked_twice)
-    assert all(count[check.id] == 1 for check in finished.items.check)
+    check, sliders, likert = finished.forms.forms
+    assert [count[it.id] for it in (*sliders.questions, *likert.questions)] == [2] * 8
+    assert [count[it.id] for it in check.questions] == [1] * 4
     assert [submitted.asked for submitted in records(finished, QuizSubmitted)] == [20, 20]
     assert [submitted.right for submitted in records(finished, QuizSubmitted)] == [10, 10]
     assert records(finished, PreferenceGiven)[0].preferred_round == 2
@@ -115,7 +114,8 @@ def test_what_was_shown_is_in_the_journal(finished: Study) -> None:
     assert finished.texts.consent.agree in consented.text
     (started,) = records(finished, SessionStarted)
     assert started.study == finished.copy
-    slider = finished.items.slider[0]
+    slider = finished.forms.questions["engagement"]
+    assert isinstance(slider, SliderItem)
     shown = [a for a in records(finished, QuestionnaireAnswer) if a.item == slider.id]
     assert {(a.text, a.anchors) for a in shown} == {(slider.text, (slider.low, slider.high))}
 
@@ -287,7 +287,7 @@ def test_a_session_killed_at_any_byte_resumes_and_loses_nothing(
     assert set(answers(entries)) == set(answers(journal_of(finished).entries))
     assert answers(entries).items() >= answers(before).items()
     ended = [step_of(entry) for entry in entries if isinstance(entry.record, PhaseEnded)]
-    assert ended == list(TIMELINE)
+    assert ended == list(finished.course)
     if survived and not isinstance(before[-1].record, SessionEnded):
         assert isinstance(entries[len(before)].record, Resumed)
     begun = history_of((entry.envelope, entry.record) for entry in before).begun

@@ -26,7 +26,7 @@ from game.session.verification import verify
 from game.study.folder import Study
 from game.study.lab.attendance import Attendance
 from game.study.ledger import LedgerError
-from game.study.protocol.timeline import TIMELINE, next_point
+from game.study.protocol.timeline import next_point
 from tests.disks import files_no_longer_than
 from tests.study.people import P01, journal_of, small_study, take_part
 
@@ -84,7 +84,9 @@ def survived(study: Study) -> tuple[Entry, ...]:
 def comes_back(study: Study, before: tuple[Entry, ...]) -> None:
     """Continue after a fault that left `before`: at the right place, losing nothing, to the end."""
     expected = next_point(
-        history_of((entry.envelope, entry.record) for entry in before), study.settings
+        history_of((entry.envelope, entry.record) for entry in before),
+        study.settings,
+        study.course,
     )
     assert take_part(study)[0] == "over"
     entries = journal_of(study).entries
@@ -95,7 +97,7 @@ def comes_back(study: Study, before: tuple[Entry, ...]) -> None:
         for entry in entries
         if isinstance(entry.record, PhaseEnded)
     ]
-    assert ended == list(TIMELINE)
+    assert ended == list(study.course)
     if before and not isinstance(before[-1].record, SessionEnded):
         assert isinstance(entries[len(before)].record, Resumed)
         following = [e for e in entries[len(before) :] if e.envelope.phase != "session"]

@@ -106,7 +106,7 @@ def test_afterwards_a_change_needs_an_amendment(study: Study) -> None:
         study.ledger.agree(study.inputs)
 
 
-@pytest.mark.parametrize("name", ["texts.toml", "items.toml", "instructions.toml", "mine.txt"])
+@pytest.mark.parametrize("name", ["texts.toml", "forms.toml", "instructions.toml", "mine.txt"])
 def test_texts_items_and_buildings_are_frozen_too(study: Study, name: str) -> None:
     text = study.buildings[0].text.replace("Foundry Court", "My Own House")
     (study.folder / "mine.txt").write_text(text)
@@ -120,7 +120,7 @@ def test_texts_items_and_buildings_are_frozen_too(study: Study, name: str) -> No
     changed = path.read_text()
     before, after = {
         "texts.toml": ("Thank you", "Thanks"),
-        "items.toml": ("engagement", "engagement_2"),
+        "forms.toml": ("engagement", "engagement_2"),
         "instructions.toml": ("Stop.", "Stand still."),
         "mine.txt": ("facing north", "facing south"),
     }[name]

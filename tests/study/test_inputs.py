@@ -47,10 +47,10 @@ def spoilt(folder: Path, name: str, before: str, after: str) -> Path:
         (TEXTS, "You have {time} to", "You have { tme } to", r"Write \{time\}"),
         (TEXTS, "You have {time} to", "You have \uff5btime\uff5d to", r"Write \{time\}"),
         (TEXTS, 'first = "', 'first = "" # "', "the names of the instructors must not be empty"),
-        ("items.toml", 'low = "', 'low = " " # "', "low and high must not be empty"),
-        ("items.toml", 'answers = ["', 'answers = ["", "', "must"),
-        ("items.toml", 'id = "pref1"', 'id = ""', "an id must be letters"),
-        ("items.toml", 'id = "pref1"', 'id = "engagement"', "two items have the id engagement"),
+        ("forms.toml", 'low = "', 'low = " " # "', "low and high must not be empty"),
+        ("forms.toml", 'answers = ["', 'answers = ["", "', "must"),
+        ("forms.toml", 'id = "pref1"', 'id = ""', "an id must be letters"),
+        ("forms.toml", 'id = "pref1"', 'id = "engagement"', "two items have the id engagement"),
         ("study.toml", 'name = "Adaptive navigation assistance"', 'name = " "', "name must not"),
     ],
 )
@@ -63,14 +63,14 @@ def test_faulty_texts_are_refused(
     assert name in str(refused.value)
 
 
-@pytest.mark.parametrize("name", ["study.toml", TEXTS, "items.toml"])
+@pytest.mark.parametrize("name", ["study.toml", TEXTS, "forms.toml"])
 def test_files_of_other_editors_are_read(tmp_path: Path, name: str) -> None:
     study = small_study(tmp_path / "study")
     path = study.folder / name
     text = path.read_text(encoding="utf-8").replace("\n", "\r\n")
     path.write_bytes(b"\xef\xbb\xbf" + text.encode())
     again = open_study(study.folder)
-    assert (again.texts, again.items, again.settings) == (study.texts, study.items, study.settings)
+    assert (again.texts, again.forms, again.settings) == (study.texts, study.forms, study.settings)
 
 
 @pytest.mark.parametrize("number", [errno.ENOLCK, errno.EOPNOTSUPP])

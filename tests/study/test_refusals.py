@@ -80,8 +80,10 @@ def test_the_words_for_a_newcomer_need_no_large_window(study: Study) -> None:
 
 
 def test_people_who_practise_while_the_study_is_closed_are_told_afterwards(study: Study) -> None:
-    cut_off(study, P01, at="answer", times=len(study.items.check))
-    last = study.items.check[-1]
+    check = study.forms.check
+    assert check is not None
+    cut_off(study, P01, at="answer", times=len(check.questions))
+    last = check.questions[-1]
     with at_login(study) as terminal:
         terminal.wait_for(last.text)
         study.ledger.close()

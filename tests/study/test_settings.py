@@ -7,10 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from game.forms.reading import FormsError, paper_forms, read_forms
 from game.study.study_settings import SettingsError, read_settings
-from game.study.texts import LATER_TEXTS, TextsError, read_items, read_texts, shipped_texts
+from game.study.texts import LATER_TEXTS, TextsError, read_texts, shipped_texts
+from game.tables.session_tables import LIKERT_ITEMS, MENTAL_STATES
 
 TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
+EARLIER = Path(__file__).parents[1] / "data" / "earlier_study"
 NAMES = {
     "seed": 1,
     "blocks": 5,
@@ -34,7 +37,7 @@ def test_the_template_is_valid_and_hides_score_and_pause(study_toml: Path) -> No
     assert settings.buildings == ("one", "two")
     assert not settings.mission.show_score
     assert not settings.mission.allow_pause
-    assert settings.memorise_ms(long=True) == 180_000
+    assert settings.memorise_ms(1) == 180_000
     assert len(digest) == 64
 
 
@@ -72,15 +75,11 @@ def test_a_missing_file_says_how_to_make_one(tmp_path: Path) -> None:
 
 
 def test_the_texts_are_valid_and_ask_what_the_paper_asked() -> None:
-    texts, items = read_texts(TEMPLATE / "texts.toml"), read_items(TEMPLATE / "items.toml")
+    texts, forms = read_texts(TEMPLATE / "texts.toml"), paper_forms()
     assert "18" in texts.consent.agree
-    assert [slider.id for slider in items.slider] == [
-        "engagement",
-        "confidence",
-        "frustration",
-        "confusion",
-    ]
-    assert [statement.id for statement in items.statement] == ["pref1", "pref2", "pref3", "pref4"]
+    _check, sliders, likert = forms.forms
+    assert tuple(slider.id for slider in sliders.questions) == MENTAL_STATES
+    assert tuple(statement.id for statement in likert.questions) == LIKERT_ITEMS
     shown = (TEMPLATE / "texts.toml").read_text().split("[debrief]")[0].casefold()
     assert not any(word in shown for word in ("static", "adaptive", "level"))
 
@@ -113,8 +112,12 @@ def test_texts_of_an_earlier_study_lack_nothing(tmp_path: Path) -> None:
         ("[scale]", "[scales]", "scales"),
     ],
 )
-def test_bad_items_are_named(tmp_path: Path, was: str, becomes: str, told: str) -> None:
+def test_bad_items_of_an_earlier_study_are_named(
+    tmp_path: Path, was: str, becomes: str, told: str
+) -> None:
     path = tmp_path / "items.toml"
-    path.write_text((TEMPLATE / "items.toml").read_text().replace(was, becomes))
-    with pytest.raises(TextsError, match=told):
-        read_items(path)
+    path.write_text((EARLIER / "items.toml").read_text().replace(was, becomes))
+    pages = read_texts(EARLIER / "texts.toml").form_pages
+    with pytest.raises(FormsError, match=told) as refused:
+        read_forms(tmp_path, pages)
+    assert "items.toml" in str(refused.value)

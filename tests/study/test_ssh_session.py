@@ -42,7 +42,6 @@ from game.study.ledger import SlotTaken, ending_of
 from game.study.lock import SessionBusy, SessionLock
 from game.study.protocol.practice import LEGS, practice_legs
 from game.study.protocol.study_session import session_seed
-from game.study.protocol.timeline import TIMELINE
 from game.world.events import Acted, Action, MissionEnded, Rescued
 from tests.study.participant import PATIENCE_S, TerminalParticipant
 from tests.study.people import journal_of, small_study
@@ -170,7 +169,7 @@ def take_part(server: Server, study: Study) -> TakenPart:
 
 
 def test_each_phase_happened_once_and_the_interrupted_mission_ended(
-    taken_part: TakenPart,
+    taken_part: TakenPart, study: Study
 ) -> None:
     ended = [
         (Step(entry.envelope.phase, entry.envelope.round), entry.record.ending)
@@ -178,7 +177,7 @@ def test_each_phase_happened_once_and_the_interrupted_mission_ended(
         if isinstance(entry.record, PhaseEnded)
     ]
     cut = Step("mission", 1)
-    assert ended == [(step, "interrupted" if step == cut else "completed") for step in TIMELINE]
+    assert ended == [(step, "interrupted" if step == cut else "completed") for step in study.course]
 
 
 def test_the_interruption_is_recorded_and_the_session_continues_after_it(

@@ -15,7 +15,7 @@ from tests.web.client import COLUMNS, ROWS
 
 if TYPE_CHECKING:
     from playwright.async_api import Browser as PlaywrightBrowser
-    from playwright.async_api import BrowserContext, Dialog, Page, WebSocket
+    from playwright.async_api import BrowserContext, Dialog, Page, Route, WebSocket
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 WINDOW = (1366, 768)
@@ -106,6 +106,14 @@ class Tab(Shown):
         """Go to a page; the status of the answer, 0 where nobody was asked."""
         answer = aside.run(self.page.goto(address))
         return answer.status if answer is not None else 0
+
+    def stand_in(self, address: str, says: str) -> None:
+        """Answer for another site."""
+
+        async def answer(route: Route) -> None:
+            await route.fulfill(body=says, content_type="text/plain")
+
+        aside.run(self.page.route(f"{address}**", answer))
 
     def reload(self) -> None:
         """Press the browser's own key for it, and agree to leave."""

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from game.forms.reading import paper_forms
 from game.study.folder import Identity, Study, new_study, open_study
 from game.study.texts import Texts
 from tests.study.participant import TerminalParticipant
@@ -49,14 +50,15 @@ def _play(person: TerminalParticipant) -> None:
     person.walk(lambda now: now.actions >= 25)
 
 
+TITLES = {form.id: form.title for form in paper_forms().forms}
 PHASES = (
     Phase("preflight", lambda its: its.words.preflight.title, "check"),
     Phase("memorise", lambda its: its.memorise.title, "memorise", go=_enter(" left")),
     Phase("label", lambda its: its.label.title, "label", go=_enter(" left")),
     Phase("mission-page", lambda its: its.mission.title, "read", since="label"),
     Phase("mission", lambda its: its.mission.title, "read", since="label", go=_play),
-    Phase("sliders", lambda its: its.mental_state.title, "answer", since="label"),
-    Phase("likert", lambda its: its.likert.title, "answer", since="label", times=5),
+    Phase("sliders", lambda _: TITLES["sliders"], "answer", since="label"),
+    Phase("likert", lambda _: TITLES["likert"], "answer", since="label", times=5),
     Phase("preference", lambda its: its.preference.title, "prefer"),
     Phase("reason", lambda its: its.reason.title, "explain"),
     Phase("debrief", lambda its: its.debrief.title, "read", since="explain"),

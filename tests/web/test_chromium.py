@@ -10,10 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from game.journal.records import Covered, Resumed
+from game.cli import main
+from game.journal.records import Covered, Debriefed, Resumed
+from game.screens.study.pages import PageScreen
 from game.study.folder import Identity, Study
 from game.study.texts import BrowserWords
-from tests.study.people import cut_off, journal_of, small_study
+from game.web.hosted import Limits
+from tests.study.people import cut_off, finished_study, journal_of, small_study
 from tests.web.chromium import CHROMIUM, Chromium, Tab, Wire
 from tests.web.served import Served, until
 
@@ -85,7 +88,7 @@ def test_keys_work_without_a_click_and_after_one_elsewhere(
     tab.close()
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (1366, 657), (1920, 1080), (1000, 900)])
+@pytest.mark.parametrize("size", [(1366, 657), (1920, 1080), (1000, 900)])
 def test_letters_are_as_large_as_the_window_allows(tab: Tab, size: tuple[int, int]) -> None:
     tab.resize(*size)
     time.sleep(0.8)
@@ -111,7 +114,7 @@ def test_the_wheel_does_nothing(tab: Tab) -> None:
     assert tab.keys == before
 
 
-@pytest.mark.parametrize("size", [(390, 844), (800, 350), (500, 900)])
+@pytest.mark.parametrize("size", [(390, 844), (800, 350)])
 def test_a_phone_or_a_small_window_is_told_so(
     tab: Tab, words: BrowserWords, size: tuple[int, int]
 ) -> None:
@@ -153,6 +156,51 @@ def test_a_page_from_elsewhere_cannot_use_a_participants_link(
     )
     assert opened is False
     tab.close()
+
+
+# --- the end ------------------------------------------------------------------------------------
+
+
+def test_whoever_finished_is_taken_back_to_the_panel(tmp_path: Path, chromium: Chromium) -> None:
+    study = finished_study(tmp_path / "study")
+    path = study.folder / "study.toml"
+    address = 'return_url = "https://panel.example/done?cc={code}"'
+    path.write_text(path.read_text().replace('return_url = ""', address))
+    assert main(["study", "amend", str(study.folder), "--why", "panel"]) == 0
+    with Served(study) as server:
+        tab = chromium.tab()
+        tab.stand_in("https://panel.example/", "welcome back")
+        tab.open(f"{server.address}?link={server.ticket('P01', pilot=True)}")
+        tab.wait_for(study.texts.debrief.title)
+        tab.read_for(PageScreen.DEAF_S)
+        tab.press("enter")
+        until(lambda: tab.page.url.startswith("https://panel.example/"))
+        (code,) = {it.record.completion_code for it in journal_of(study).entries
+                   if isinstance(it.record, Debriefed)}  # fmt: skip
+        assert tab.page.url == f"https://panel.example/done?cc={code}"
+        assert tab.dialogs == 0
+        tab.close()
+
+
+@pytest.mark.slow
+def test_a_full_server_asks_to_come_back_and_lets_in_when_there_is_room(
+    tmp_path: Path, chromium: Chromium, words: BrowserWords
+) -> None:
+    study = small_study(tmp_path / "study")
+    with Served(study, limits=Limits(sessions=1, away_s=0.5)) as server:
+        first, second = chromium.tab(), chromium.tab()
+        first.open(server.link("P01"))
+        first.wait_for(READY)
+        second.open(server.link("P02"))
+        second.wait_for_notice(words.full.title)
+        first.close()
+        until(lambda: not server.programs())
+        second.click("#notice button")
+        second.wait_for(READY)
+        (program,) = server.programs()
+        os.kill(program, signal.SIGKILL)
+        second.wait_for_notice(words.failed.title)
+        second.close()
 
 
 # --- lines that break ---------------------------------------------------------------------------

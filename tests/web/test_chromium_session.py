@@ -14,7 +14,6 @@ from game.journal.folders import JOURNAL
 from game.journal.history import Step
 from game.journal.records import Covered, Debriefed, PhaseEnded, PreferenceGiven, Resumed
 from game.study.folder import Identity
-from game.study.protocol.timeline import TIMELINE
 from tests.study.participant import TerminalParticipant
 from tests.study.people import journal_of, small_study
 from tests.study.server import ANA
@@ -78,7 +77,7 @@ def test_a_whole_session_by_keys_with_a_reload_in_mid_mission(tmp_path: Path) ->
         for entry in entries
         if isinstance(entry.record, PhaseEnded)
     ]
-    assert ended == [(step, "completed") for step in TIMELINE]
+    assert ended == [(step, "completed") for step in study.course]
     assert Covered in map(type, records), "the page was away for a moment"
     assert Resumed not in map(type, records), "but found the running program"
     assert [it.completion_code for it in records if isinstance(it, Debriefed)] == [code]

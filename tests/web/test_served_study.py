@@ -177,6 +177,7 @@ def test_whoever_is_logged_in_elsewhere_is_asked_as_over_ssh(served: Served) -> 
 # --- the end ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_whoever_finished_gets_the_code_and_the_way_back(tmp_path: Path) -> None:
     study = finished_study(tmp_path / "study")
     path = study.folder / "study.toml"
@@ -245,6 +246,7 @@ def assert_hung_up(study: Study) -> None:
         assert Interruption("hang_up", signal="SIGHUP") in records
 
 
+@pytest.mark.slow
 def test_a_line_away_for_too_long_is_hung_up_and_the_next_resumes(tmp_path: Path) -> None:
     study = half_way(tmp_path / "study")
     with Served(study, limits=Limits(away_s=0.5)) as server:

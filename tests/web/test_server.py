@@ -7,6 +7,7 @@ import json
 import os
 import re
 import time
+from contextlib import suppress
 
 import psutil
 import pytest
@@ -58,6 +59,17 @@ async def test_the_page_loads_nothing_from_elsewhere_and_says_so() -> None:
         assert "script-src 'self';" in policy
         assert answer.headers["Referrer-Policy"] == "no-referrer"
         assert answer.headers["Cache-Control"] == "no-store"
+
+
+async def test_what_a_page_is_made_of_is_fetched_once() -> None:
+    async with echoes() as server:
+        first = await server.client.get("/static/textual.js")
+        known = {"If-None-Match": first.headers["ETag"]}
+        again = await server.client.get("/static/textual.js", headers=known)
+        assert (first.status, again.status) == (200, 304)
+        assert again.headers["Cache-Control"] == "no-cache"
+        changed = await server.client.get("/static/page.js", headers=known)
+        assert changed.status == 200
 
 
 async def test_a_ticket_cannot_break_out_of_the_page() -> None:
@@ -366,6 +378,22 @@ async def test_keys_beyond_what_anyone_types_are_dropped() -> None:
             except TimeoutError:
                 continue
         assert 20 <= visit.output.count(b"k") <= most
+
+
+async def test_only_so_much_is_painted_anew() -> None:
+    async with echoes(Limits(keys_a_second=20, burst_s=5)) as server:
+        visit = await server.visit()
+        await visit.until(WINDOW)
+        began = time.monotonic()
+        for _ in range(200):
+            await visit.socket.send_str("r")
+        await asyncio.sleep(0.5)
+        most = 1 + 5 + (time.monotonic() - began)
+        while b"end" not in visit.output:
+            await visit.press("end")
+            with suppress(TimeoutError):
+                await visit.until(b"end", 0.5)
+        assert visit.output.count(WINDOW) <= most + 1
 
 
 async def test_a_reader_who_never_reads_holds_up_nobody_and_loses_the_line() -> None:

@@ -95,6 +95,12 @@ class Phrasebook:
         default_factory=dict, init=False, repr=False, compare=False
     )
 
+    @property
+    def own_sentences(self) -> tuple[str, ...]:
+        """The rooms that have a sentence of their own."""
+        forms = (form.partition(" ") for level, form in self.sentences if level is Level.C3)
+        return tuple(thing for action, _, thing in forms if action == "Goto" and thing != ROOM)
+
     def each(self, level: Level, tuples: Tuples) -> tuple[str, ...]:
         """The sentence of each tuple. Raises ValueError for one that `level` does not have."""
         return tuple(self._sentence(level, said) for said in tuples)

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from game.forms.items import Weights
 from game.rescuers.person.experience import Experience, Style
 from game.rescuers.person.parameters import Population, Traits
 from game.rescuers.person.randomness import clipped, normal, stream
@@ -21,12 +22,11 @@ DEMAND: dict[Style, float] = {1: 0.2, 2: 0.55, 3: 0.9}
 """The knowledge at which each way of talking is right: LOW for C1, MED for C2, HIGH for C3."""
 
 SLIDER_RANGE = 1, 100
-LIKERT_RANGE = 1, 5
 _MINUTE_MS = 60_000
 _LEANING = 6.0
 _MOOD = 7.0
-_POINTS_A_STEP = 20.0
-"""Points of 1 to 100 that make one step of a five-point scale."""
+_POINTS = 100.0
+"""What a step of a scale is worth: these, parted among its points."""
 
 
 @dataclass(frozen=True)
@@ -61,32 +61,44 @@ def strain_of(experience: Experience) -> Strain:
     )
 
 
-@dataclass(frozen=True)
-class Weights:
-    """What one item's meaning depends on, in points of 1 to 100. `valence` is the sign of mood."""
-
-    middle: float
-    valence: int
-    overload: float
-    underload: float
-    hindered: float
-    corrections: float
-    switches: float
-
-
 WEIGHTS: Mapping[str, Weights] = {
-    "engagement": Weights(62, 1, -35, -45, -10, 0, -0.5),
-    "confidence": Weights(65, 1, -35, -5, -20, -2, -0.5),
-    "frustration": Weights(28, -1, 30, 15, 30, 2, 1),
-    "confusion": Weights(26, -1, 35, 0, 30, 2, 1.5),
-    "pref1": Weights(55, 1, -45, 0, -20, -1, -1),
-    "pref2": Weights(55, 1, -30, -20, -15, 0, -0.5),
-    "pref3": Weights(52, 1, -40, -40, -10, -1, -0.5),
-    "pref4": Weights(52, 1, -25, -25, -15, 0, 0),
+    "engagement": Weights(
+        middle=62, valence=1, overload=-35, underload=-45, hindered=-10, switches=-0.5
+    ),
+    "confidence": Weights(
+        middle=65,
+        valence=1,
+        overload=-35,
+        underload=-5,
+        hindered=-20,
+        corrections=-2,
+        switches=-0.5,
+    ),
+    "frustration": Weights(
+        middle=28, valence=-1, overload=30, underload=15, hindered=30, corrections=2, switches=1
+    ),
+    "confusion": Weights(
+        middle=26, valence=-1, overload=35, hindered=30, corrections=2, switches=1.5
+    ),
+    "pref1": Weights(middle=55, valence=1, overload=-45, hindered=-20, corrections=-1, switches=-1),
+    "pref2": Weights(
+        middle=55, valence=1, overload=-30, underload=-20, hindered=-15, switches=-0.5
+    ),
+    "pref3": Weights(
+        middle=52,
+        valence=1,
+        overload=-40,
+        underload=-40,
+        hindered=-10,
+        corrections=-1,
+        switches=-0.5,
+    ),
+    "pref4": Weights(middle=52, valence=1, overload=-25, underload=-25, hindered=-15),
 }
-"""By the identifiers of items.toml. An item that is not here is answered by mood alone."""
+"""By the identifiers of items; forms.toml may give others. An item without is answered by mood
+alone."""
 
-_BY_MOOD = Weights(50, 1, 0, 0, 0, 0, 0)
+_BY_MOOD = Weights()
 
 
 class Respondent:
@@ -97,19 +109,35 @@ class Respondent:
         self._traits = traits
         self._seed = seed
 
-    def slider(self, item: str, round_: int, experience: Experience) -> int:
-        """An answer from 1 to 100, rounded as this person rounds."""
-        meant = self._meant(item, experience) + self._noise(item, round_)
+    def slider(
+        self,
+        item: str,
+        occasion: int | str,
+        experience: Experience | None,
+        ends: tuple[int, int] = SLIDER_RANGE,
+        weights: Weights | None = None,
+    ) -> int:
+        """An answer between two ends, rounded as this person rounds. `occasion` tells several
+        answers to an item apart; without an experience nothing has happened that could move it."""
+        meant = self._meant(item, experience, weights) + self._noise(item, occasion)
         coarse = self._traits.coarseness
         grain = 1 if coarse < 1 / 3 else 5 if coarse < 2 / 3 else 10
         low, high = SLIDER_RANGE
-        return round(clipped(grain * round(meant / grain), low, high))
+        share = (round(clipped(grain * round(meant / grain), low, high)) - low) / (high - low)
+        return round(ends[0] + share * (ends[1] - ends[0]))
 
-    def likert(self, item: str, round_: int, experience: Experience) -> int:
-        """An answer from 1 to 5."""
-        meant = self._meant(item, experience) + self._noise(item, round_)
-        low, high = LIKERT_RANGE
-        return round(clipped((low + high) / 2 + (meant - 50) / _POINTS_A_STEP, low, high))
+    def scale(
+        self,
+        item: str,
+        occasion: int | str,
+        experience: Experience | None,
+        points: int,
+        weights: Weights | None = None,
+    ) -> int:
+        """An answer from 1 to `points`."""
+        meant = self._meant(item, experience, weights) + self._noise(item, occasion)
+        middle = (1 + points) / 2
+        return round(clipped(middle + (meant - 50) / (_POINTS / points), 1, points))
 
     def preferred(self, first: Experience, second: Experience) -> Literal[1, 2]:
         """The round, 1 or 2, whose instructor was liked better on the whole."""
@@ -120,19 +148,24 @@ class Respondent:
         ]
         return 1 if liked[0] > liked[1] else 2
 
-    def _meant(self, item: str, experience: Experience) -> float:
-        weights = WEIGHTS.get(item, _BY_MOOD)
-        strain = strain_of(experience)
-        caused = (
-            weights.overload * strain.overload
-            + weights.underload * strain.underload
-            + weights.hindered * strain.hindered
-            + weights.corrections * strain.corrections
-            + weights.switches * strain.switches
-        )
+    def _meant(
+        self, item: str, experience: Experience | None, given: Weights | None = None
+    ) -> float:
+        weights = given or WEIGHTS.get(item, _BY_MOOD)
+        caused = 0.0 if experience is None else _caused(weights, strain_of(experience))
         leaning = _LEANING * normal(stream(*self._seed, "leaning", item))
         mood = weights.valence * _MOOD * self._traits.mood
         return weights.middle + mood + leaning + self._population.effect * caused
 
-    def _noise(self, item: str, round_: int) -> float:
-        return self._population.noise * normal(stream(*self._seed, "noise", item, round_))
+    def _noise(self, item: str, occasion: int | str) -> float:
+        return self._population.noise * normal(stream(*self._seed, "noise", item, occasion))
+
+
+def _caused(weights: Weights, strain: Strain) -> float:
+    return (
+        weights.overload * strain.overload
+        + weights.underload * strain.underload
+        + weights.hindered * strain.hindered
+        + weights.corrections * strain.corrections
+        + weights.switches * strain.switches
+    )

@@ -22,14 +22,16 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.geometry import Size
-from textual.screen import Screen
+from textual.screen import ModalScreen, Screen
 from textual.widgets import Static
 
 from game.errors import AnaError, where
 from game.journal.records import Interruption
 from game.places import sessions_folder
+from game.screens.widgets.keymap import read_keys, write_template
 from game.screens.widgets.preferences import (
     Preferences,
+    keys_file,
     load_preferences,
     preferences_file,
     save_preferences,
@@ -111,6 +113,8 @@ class AnaApp(Program, inherit_bindings=False):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+z", "stand_aside", id="app.suspend", priority=True),
+        Binding("f2", "settings", id="app.settings"),
+        Binding("question_mark,f1", "help", id="app.help"),
     ]
     CSS_PATH: ClassVar[list[str | PurePath]] = [
         "../widgets/styles/base.tcss",
@@ -127,6 +131,8 @@ class AnaApp(Program, inherit_bindings=False):
         self._preferences_file = preferences or preferences_file()
         self.preferences = load_preferences(self._preferences_file)
         super().__init__(self.preferences.ground)
+        self.keys = read_keys(keys_file(self._preferences_file))
+        self.set_keymap(self.keys.bindings)
         self._first = first
         self._options = options
         self.live: LiveMission | None = None
@@ -228,9 +234,10 @@ class AnaApp(Program, inherit_bindings=False):
                 self._choose_journal()
             case "howto":
                 self._show_howto()
+            case "settings":
+                self.action_settings()
             case "theme":
                 self._turn_theme()
-                home.preferences = self.preferences
             case _:
                 self.exit()
 
@@ -254,17 +261,49 @@ class AnaApp(Program, inherit_bindings=False):
             self.preferences = preferences
             save_preferences(self._preferences_file, preferences)
 
+    def action_help(self) -> None:
+        """How to play, over a screen that has no help of its own."""
+        from game.screens.widgets.dialogs import Help
+
+        if not isinstance(self.screen, ModalScreen):
+            self.push_screen(Help(self._rules_of(self.preferences.difficulty), key="Back"))
+
+    def action_settings(self) -> None:
+        """The settings, over whatever is shown."""
+        from game.screens.play.home import HomeScreen
+        from game.screens.play.settings_screen import SettingsScreen
+
+        if not isinstance(self.screen, ModalScreen):
+            file = keys_file(self._preferences_file)
+            write_template(file)
+            if isinstance(self.screen, HomeScreen):
+                self._remember(self.screen.preferences)
+            self.push_screen(SettingsScreen(self.preferences, self._prefer, str(file)))
+
+    def _prefer(self, preferences: Preferences) -> None:
+        """Let new preferences hold at once."""
+        from game.screens.play.free_play_screen import FreePlayScreen
+        from game.screens.play.home import HomeScreen
+
+        self._remember(preferences)
+        self.theme = theme_name(os.environ, preferences.ground)
+        for screen in self.screen_stack:
+            if isinstance(screen, HomeScreen | FreePlayScreen):
+                screen.prefer(preferences)
+
     def _turn_theme(self) -> None:
         ground = "dark" if self.theme == "ana-light" else "light"
-        self._remember(self.preferences.replaced(ground=ground))
-        self.theme = theme_name(os.environ, self.preferences.ground)
+        self._prefer(self.preferences.replaced(ground=ground))
 
     def _rules_of(self, difficulty: Difficulty) -> MissionSettings:
-        """The rules of a difficulty; those of the command line where it is theirs."""
+        """The rules of a difficulty, those of the command line where it is theirs, with the
+        controls chosen at home."""
         options = self._options
         if options is not None and options.variant.difficulty == difficulty:
-            return options.settings
-        return with_demands(FREE_PLAY, difficulty)
+            rules = options.settings
+        else:
+            rules = with_demands(FREE_PLAY, difficulty)
+        return replace(rules, controls=self.preferences.controls)
 
     def _chosen(self, typed: str = "") -> PlayOptions:
         """The mission chosen at home, by the seed that was typed or a new one."""
@@ -304,7 +343,7 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.tutorial import Tutorial
         from game.screens.widgets.terminal import this_terminal
 
-        rules = self._options.settings if self._options else FREE_PLAY
+        rules = self._rules_of("standard")
         tutorial = Tutorial(self._log_dir(), this_terminal(*self.size), rules)
         self._lessons = tutorial.screens()
         self._teach_on()
@@ -407,7 +446,7 @@ class AnaApp(Program, inherit_bindings=False):
             variant=options.variant,
             memorised_ms=memorised_ms,
         )
-        return FreePlayScreen(LiveMission(run, journal), _path(journal))
+        return FreePlayScreen(LiveMission(run, journal), _path(journal), self.preferences)
 
     def _watching(self, options: PlayOptions) -> WatchScreen:
         from game.rescuers.catalogue import character

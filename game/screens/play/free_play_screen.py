@@ -10,7 +10,11 @@ from textual.app import ComposeResult
 
 from game.screens.play.live import LiveMission
 from game.screens.play.mission_screen import MissionScreen
+from game.screens.widgets.howto import HasKeys
+from game.screens.widgets.instruction_bar import announces
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.keymap import USUAL_KEYS, KeyMap
+from game.screens.widgets.preferences import USUAL_PREFERENCES, Preferences
 from game.world.observation import Guidance, Observation
 from game.world.settings import MissionSettings
 
@@ -20,15 +24,16 @@ _TREATING = re.compile(
 """The ways in which the bar asks for the one key."""
 
 
-def glossed(text: str) -> str:
+def glossed(text: str, key: str = "space") -> str:
     """A text of the bar with the key for treating named."""
-    return _TREATING.sub(r"\1 (space).", text)
+    return _TREATING.sub(lambda found: f"{found[1]} ({key}).", text)
 
 
 class Gloss:
     """Names the key for treating until the player has used it once."""
 
-    def __init__(self) -> None:
+    def __init__(self, key: str = "space") -> None:
+        self._key = key
         self._learned = False
         self._kept = ""
 
@@ -40,31 +45,50 @@ class Gloss:
         if guidance is None or (self._learned and guidance.text != self._kept):
             return observation
         self._kept = guidance.text
-        text = glossed(guidance.text)
+        text = glossed(guidance.text, self._key)
         if text == guidance.text:
             return observation
         return replace(observation, guidance=Guidance(text, guidance.notice))
 
 
-def mission_keys(rules: MissionSettings) -> list[tuple[str, str]]:
+def mission_keys(rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[tuple[str, str]]:
     """The keys of a mission, as many as there are by its rules, each with what it does."""
-    turning = rules.controls == "turn"
-    walking = [("↑", "walk"), ("←→", "turn")] if turning else [("↑↓←→", "walk")]
-    words = [("+ -", "wording")] if rules.level_key else []
-    pause = [("P", "pause")] if rules.allow_pause else []
-    return [*walking, ("Space", "treat"), ("?", "help"), ("Q", "leave"), *pause, *words]
+    label = keys.label
+    if rules.controls == "turn":
+        walking = [(label("up"), "walk"), (f"{label('left')}{label('right')}", "turn")]
+    else:
+        walking = [(keys.walking or "↑↓←→", "walk")]
+    words = [(f"{label('simpler')} {label('shorter')}", "wording")] if rules.level_key else []
+    pause = [(label("pause"), "pause")] if rules.allow_pause else []
+    others = [(label("treat"), "treat"), (label("help"), "help"), (label("leave"), "leave")]
+    return [*walking, *others, *pause, *words]
 
 
 class FreePlayScreen(MissionScreen):
     """A person plays outside a study."""
 
-    def __init__(self, live: LiveMission, journal: Path) -> None:
+    def __init__(
+        self, live: LiveMission, journal: Path, preferences: Preferences = USUAL_PREFERENCES
+    ) -> None:
         super().__init__(live, journal)
         self._gloss = Gloss()
+        self._said = Guidance("")
+        self.prefer(preferences)
+
+    def prefer(self, preferences: Preferences) -> None:
+        """From now on the bar rings and flashes as preferred."""
+        self._rings = preferences.bell
+        self.view.bar.flashes = not preferences.still
 
     def compose(self) -> ComposeResult:
         yield from super().compose()
-        yield KeyLine(*mission_keys(self.live.settings), id="keys")
+        keys = self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
+        self._gloss = Gloss(keys.label("treat").lower())
+        yield KeyLine(*mission_keys(self.live.settings, keys), id="keys")
 
     def show(self, observation: Observation) -> None:
+        said = observation.guidance or Guidance("")
+        if self._rings and announces(said, self._said):
+            self.app.bell()
+        self._said = said
         super().show(self._gloss.of(observation))

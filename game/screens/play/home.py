@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple, get_args
+from typing import Any, ClassVar, get_args
 
 from textual import work
 from textual.app import ComposeResult
@@ -14,6 +14,7 @@ from textual.containers import Vertical
 from textual.message import Message
 from textual.screen import Screen
 
+from game.screens.play.menu import Item, after, menu_rows
 from game.screens.play.past_missions import (
     PastMission,
     best,
@@ -24,6 +25,7 @@ from game.screens.play.past_missions import (
 )
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
+from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.preferences import Preferences
 from game.world import load_building
 from game.world.library import GENERATED
@@ -54,6 +56,7 @@ _SCENE_KINDS = {
 }
 BUILDINGS = ("harbour", "foundry", "practice", GENERATED)
 VICTIMS = {"drawn": "as drawn", "seeded": "elsewhere each time"}
+CONTROLS = {"compass": "arrows walk", "turn": "arrows turn, and walk ahead"}
 MOST_DIGITS = 9
 """Of a seed that is typed."""
 COACHES = (
@@ -64,15 +67,6 @@ COACHES = (
     ("static-3", "by room names (C3)"),
 )
 MEMORISING = ((0, "no"), (60, "for one minute"), (180, "for three minutes"))
-
-
-class Item(NamedTuple):
-    """A line of the menu; a `choice` changes with left and right, a `note` stands there."""
-
-    action: str
-    text: str
-    choice: str = ""
-    note: str = ""
 
 
 def scene_rows(glyphs: GlyphSet) -> list[Row]:
@@ -94,29 +88,20 @@ def menu_items(preferences: Preferences, reached: str = "", seed: str = "") -> t
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
         Item("victims", "  people lie", VICTIMS[preferences.victims]),
         Item("difficulty", "  difficulty", preferences.difficulty),
+        Item("controls", "  controls", CONTROLS[preferences.controls]),
         Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
         Item("seed", "  seed", note=f"{seed}▏" if seed else "a new one; or type a number"),
         Item("today", "Mission of the day"),
         Item("tutorial", "Tutorial, three minutes"),
         Item("watch", "Watch a simulated rescuer"),
         Item("replay", "Your missions"),
+        Item("settings", "Settings"),
         Item("howto", "How to play"),
         Item("quit", "Quit"),
     )
 
 
-def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
-    """The menu as a block of equally wide rows."""
-    rows: list[Row] = []
-    for number, item in enumerate(items):
-        chosen = number == selected
-        choice = f"‹ {item.choice} ›" if item.choice else item.note
-        text = f" {'▸' if chosen else ' '} {item.text:<15}{choice}"
-        rows.append(((f"{text:<48}", "selected" if chosen else "item"),))
-    return rows
-
-
-class HomePage(Canvas):
+class HomePage(ClickCanvas):
     """Title, scene and menu."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {*STYLES, "letters", "subtitle", "item", "selected"}
@@ -141,11 +126,16 @@ class HomePage(Canvas):
         block = [*title, *(scene if fits else ()), *menu]
         self.draw([centred(row, columns) if width(row) else row for row in block])
 
+    def item_at(self, row: int) -> int | None:
+        """The menu's item in a row of the page."""
+        number = row - (len(self.rows) - len(self._items))
+        return number if number >= 0 else None
+
     def on_resize(self) -> None:
         self.show(self._items, self._selected)
 
 
-class HomeScreen(Screen[None]):
+class HomeScreen(Pointed, Screen[None]):
     """Lets one choose what to do; the app does it."""
 
     class Wanted(Message):
@@ -193,8 +183,7 @@ class HomeScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         with Vertical(id="home-ground"):
             yield self._page
-        turn = "" if self.app.native_ansi_color else " · T theme"
-        hint = f" ↑ ↓ choose · ← → change · Enter start{turn} · Q quit"
+        hint = " ↑ ↓ choose · ← → change · Enter start · F2 settings · ? help · Q quit"
         yield Canvas([((hint, ""),)], id="hint")
 
     def on_mount(self) -> None:
@@ -211,6 +200,11 @@ class HomeScreen(Screen[None]):
         self._past = past
         if self.is_attached:
             self._show()
+
+    def prefer(self, preferences: Preferences) -> None:
+        """Show other preferences."""
+        self.preferences = preferences
+        self._show()
 
     def _show(self) -> None:
         self._page.show(self._items(), self._selected)
@@ -230,6 +224,13 @@ class HomeScreen(Screen[None]):
             return ""
         return f"best {top.rescued}, last time {max(such, key=lambda it: it.at).rescued}"
 
+    def on_row_clicked(self, message: RowClicked) -> None:
+        number = self._page.item_at(message.row)
+        if number is not None:
+            self._selected = number
+            self._show()
+            self.action_choose()
+
     def action_move(self, way: int) -> None:
         self._selected = (self._selected + way) % len(self._items())
         self._show()
@@ -237,7 +238,7 @@ class HomeScreen(Screen[None]):
     def action_change(self, way: int) -> None:
         item = self._items()[self._selected].action
         if item in _CHOICES:
-            wanted = _next(_CHOICES[item], getattr(self.preferences, item), way)
+            wanted = after(_CHOICES[item], getattr(self.preferences, item), way)
             self.preferences = self.preferences.replaced(**{item: wanted})
         self._show()
 
@@ -272,11 +273,8 @@ _CHOICES: dict[str, Sequence[Any]] = {
     "building": BUILDINGS,
     "victims": list(VICTIMS),
     "difficulty": get_args(Difficulty),
+    "controls": list(CONTROLS),
     "coach": [name for name, _ in COACHES],
     "memorise": [seconds for seconds, _ in MEMORISING],
 }
 """What can be chosen, by the menu's item and the preference of the same name."""
-
-
-def _next(names: Sequence[Any], name: object, way: int) -> Any:
-    return names[(names.index(name) + way) % len(names)]

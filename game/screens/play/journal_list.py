@@ -13,9 +13,10 @@ from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
 from game.screens.play.past_missions import PastMission, past_mission
-from game.screens.widgets.canvas import BLANK, Canvas, Row, Run
+from game.screens.widgets.canvas import BLANK, Row, Run
 from game.screens.widgets.charts import bars
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 
 CHART_ROWS = 6
 LEAST_LISTED = 8
@@ -58,12 +59,21 @@ def history_rows(
     return bars("Rescued, mission by mission", values, highest, columns=columns, rows=rows)
 
 
-class JournalList(Canvas):
+class JournalList(ClickCanvas):
     """Shows as many journals as fit, around the selected one, below a chart if there is room."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         "item", "selected", "title", "quiet", "faint", "area", "bar",
     }  # fmt: skip
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._first_row = self._first = self._count = 0
+
+    def journal_at(self, row: int) -> int | None:
+        """The journal in a row of the list."""
+        number = row - self._first_row + self._first
+        return number if row >= self._first_row and number < self._count else None
 
     def show(
         self, journals: Sequence[Path], selected: int, missions: Sequence[PastMission]
@@ -76,18 +86,20 @@ class JournalList(Canvas):
             rows += [*chart, BLANK]
         rows += [(("  Your missions", "title"),), BLANK]
         high = max(1, self.size.height - len(rows) - 1)
+        above = len(rows)
         first = max(0, min(selected - high // 2, len(journals) - high))
         for number, path in enumerate(journals[first : first + high], start=first):
             played = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
             style = "selected" if number == selected else "item"
             text: Run = (f"  {played:%d %b %Y  %H:%M}  {journal_text(path)}  ", style)
             rows.append((text,))
+        self._first_row, self._first, self._count = above, first, len(journals)
         if not journals:
             rows.append((("  There are no missions yet: play one first.", "quiet"),))
         self.draw(rows)
 
 
-class JournalsScreen(Screen[Chosen]):
+class JournalsScreen(Pointed, Screen[Chosen]):
     """Dismissed with what is to be seen of the journal chosen, or with None."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -133,6 +145,14 @@ class JournalsScreen(Screen[Chosen]):
 
     def _show(self) -> None:
         self._list.show(self._journals, self._selected, self._missions)
+
+    def on_row_clicked(self, message: RowClicked) -> None:
+        number = self._list.journal_at(message.row)
+        if number is not None and number == self._selected:
+            self.action_choose("replay")
+        elif number is not None:
+            self._selected = number
+            self._show()
 
     def action_move(self, way: int) -> None:
         count = len(self._journals)

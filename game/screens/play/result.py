@@ -28,6 +28,7 @@ from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside, width, 
 from game.screens.widgets.charts import area_chart, step_chart
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.minimap import PIN_STYLES, STYLES
+from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.statuspanel import clock_text
 from game.world.building import Severity
 from game.world.observation import VictimState
@@ -254,7 +255,7 @@ class ResultPage(Canvas):
     }  # fmt: skip
 
 
-class PageNames(Canvas):
+class PageNames(ClickCanvas):
     """The names of the pages, of which one is shown, and as much of the end of the journal's path
     as fits."""
 
@@ -264,18 +265,24 @@ class PageNames(Canvas):
         super().__init__(id="page-names")
         self._journal = str(journal)
 
+    def name_at(self, column: int) -> str | None:
+        """The name of a page at a column."""
+        return next((name for name, end in self._ends.items() if column < end), None)
+
     def show(self, names: Sequence[str], shown: str) -> None:
         """Let the name of the page that is shown stand out."""
         row: list[Run] = [("  ", "item")]
+        self._ends: dict[str, int] = {}
         for name in names:
             row += [(f" {name} ", "selected" if name == shown else "item"), (" ", "item")]
+            self._ends[name] = width(tuple(row))
         room = self.size.width - width(tuple(row)) - 2
         path = self._journal if len(self._journal) <= room else f"…{self._journal[1 - room :]}"
         row.append((f"{path:>{max(0, room)}}", "item"))
         self.draw([tuple(row)])
 
 
-class ResultScreen(Screen[None]):
+class ResultScreen(Pointed, Screen[None]):
     """Shows a finished mission on a few pages: totals and charts, the way, people, words."""
 
     class Wanted(Message):
@@ -380,9 +387,17 @@ class ResultScreen(Screen[None]):
     def action_want(self, what: str) -> None:
         self.app.post_message(self.Wanted(what, self))
 
+    def on_row_clicked(self, message: RowClicked) -> None:
+        name = self._names.name_at(message.column)
+        if name is not None:
+            self._turn_to(name)
+
     def action_turn(self, way: int) -> None:
         names = list(self._pages())
-        self._shown = names[(names.index(self._shown) + way) % len(names)]
+        self._turn_to(names[(names.index(self._shown) + way) % len(names)])
+
+    def _turn_to(self, name: str) -> None:
+        self._shown = name
         self._show()
         self.query_one(VerticalScroll).scroll_home(animate=False)
 

@@ -17,8 +17,9 @@ from game.screens.play.mission_story import coach_name
 from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
 from game.screens.widgets.dialogs import Help
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
-from game.screens.widgets.howto import red_time, walking_rows
+from game.screens.widgets.howto import HasKeys, red_time, walking_rows
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.keymap import USUAL_KEYS, KeyMap
 from game.screens.widgets.statuspanel import clock_text
 from game.world.building import Building, Severity
 from game.world.settings import MissionSettings
@@ -44,6 +45,7 @@ def card_rows(
     about: str,
     glyphs: GlyphSet,
     columns: int,
+    keys: KeyMap = USUAL_KEYS,
 ) -> list[Row]:
     """The card, `columns` wide: who is to be found, what the bar is, the keys."""
     reds = sum(site.severity is Severity.RED for site in building.victims)
@@ -62,8 +64,8 @@ def card_rows(
         *(((f"{text:<{columns}}", "example"),) for text in ("", example, "")),
         *(((line, ""),) for line in wrapped(bar.strip(), columns)),
         BLANK,
-        *walking_rows(turning=rules.controls == "turn"),
-        (("  ", ""), ("    ?    ", "key"), ("  help", "")),
+        *walking_rows(turning=rules.controls == "turn", keys=keys),
+        (("  ", ""), (f" {keys.label('help'):^7} ", "key"), ("  help", "")),
         BLANK,
         (("The clock has not started. ", "quiet"), ("Press any key to start.", "strong")),
     ]
@@ -82,7 +84,8 @@ class StartCard(Canvas):
 
     def on_resize(self, event: events.Resize) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw(card_rows(*self._mission, glyphs, min(WIDEST, event.size.width)))
+        keys = self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
+        self.draw(card_rows(*self._mission, glyphs, min(WIDEST, event.size.width), keys))
 
 
 class StartScreen(Screen[None]):
@@ -128,4 +131,4 @@ class StartScreen(Screen[None]):
         self.app.post_message(self.Wanted(what, self._begin))
 
     def action_help(self) -> None:
-        self.app.push_screen(Help(self._rules))
+        self.app.push_screen(Help(self._rules, key="Back"))

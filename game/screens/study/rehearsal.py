@@ -17,26 +17,25 @@ from textual.pilot import Pilot
 from textual.screen import Screen
 from textual.widget import Widget
 
+from game.forms.items import HeadingItem, Item
 from game.journal.clock import VirtualClock
 from game.journal.sink import MemorySink
 from game.rescuers.person import POPULATIONS
 from game.screens.study.app import StudyApp
 from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_rehearsal import legend_words, mission_pages, windows
 from game.screens.study.pages import PageScreen
 from game.screens.study.reason import ReasonScreen
-from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
 from game.screens.widgets.signs import Signs
 from game.screens.widgets.theme import Look
 from game.simulation.simulated_participant import SimulatedParticipant
 from game.simulation.simulated_session import HeldStudy
-from game.study.design import BLOCK, design_cell
 from game.study.folder import Identity, Study
 from game.study.lab.readiness import shortfalls
 from game.study.ledger import SlotTaken
@@ -56,11 +55,13 @@ Make = Callable[[], Screen[Any]]
 
 @dataclass(frozen=True)
 class Rehearsed:
-    """A page: its name, the words that nobody could have read, and its pictures as SVG."""
+    """A page: its name, the words that nobody could have read, its pictures as SVG, and the
+    questions that are never wholly in view, each with the rows that it has too many."""
 
     name: str
     missing: tuple[str, ...]
     pictures: tuple[str, ...]
+    too_tall: dict[str, int]
 
 
 class _Showing(Program, inherit_bindings=False):
@@ -88,14 +89,16 @@ async def shown(name: str, frame: Frame, make: Make, words: str) -> Rehearsed:
             views.append(view)
             pictures.append(app.export_screenshot(title=name))
             await _go_on(pilot)
-    return Rehearsed(name, tuple(_unseen(words, views)), tuple(pictures))
+        form = app.screen
+        too_tall = form.too_tall() if isinstance(form, FormScreen) else {}
+    return Rehearsed(name, tuple(_unseen(words, views)), tuple(pictures), too_tall)
 
 
 async def _go_on(pilot: Pilot[None]) -> None:
     """To what stands below: the next question, or a page further."""
     screen = pilot.app.screen
-    if isinstance(screen, SlidersScreen | LikertScreen):
-        await pilot.press("down")
+    if isinstance(screen, FormScreen):
+        await screen.turn(1)
     else:
         for scrolled in screen.query(Widget):
             if scrolled.max_scroll_y > scrolled.scroll_y:
@@ -126,6 +129,14 @@ _FRAMES = re.compile(r"[\s\u2500-\u259f]+")
 
 def _may_break(word: str) -> bool:
     return len(word) > 40 or any(ord(letter) > 0x2E80 for letter in word)
+
+
+class _AllShown(Sheet):
+    """A page with every item on it, whatever the answers are."""
+
+    @property
+    def shown(self) -> tuple[Item, ...]:
+        return self.items
 
 
 class _Rehearsal(SimulatedParticipant):
@@ -166,7 +177,7 @@ class _Rehearsal(SimulatedParticipant):
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
         (asked,) = sheet.asked
-        name, words = f"{page.title} {asked.item}", (asked.text, *asked.anchors)
+        name, words = f"{page.title} {asked.id}", (asked.text, *asked.anchors)
 
         def made() -> Screen[Any]:
             return ChoiceScreen(self._frame, page, asked.anchors, question=asked.text)
@@ -174,15 +185,17 @@ class _Rehearsal(SimulatedParticipant):
         await self._show(name, made, page, *words)
         await super().choose(page, sheet)
 
-    async def slide(self, page: Page, sheet: Sheet) -> None:
-        words = [word for it in sheet.asked for word in (it.text, *it.anchors)]
-        await self._show(page.title, lambda: SlidersScreen(self._frame, page, sheet), page, *words)
-        await super().slide(page, sheet)
-
-    async def rate(self, page: Page, sheet: Sheet) -> None:
-        words = [word for it in sheet.asked for word in (it.text, *it.anchors)]
-        await self._show(page.title, lambda: LikertScreen(self._frame, page, sheet), page, *words)
-        await super().rate(page, sheet)
+    async def fill(self, page: Page, sheet: Sheet) -> None:
+        everything = _AllShown(self._session, sheet.items)
+        words = [
+            word
+            for it in everything.items
+            for word in (it.text, *(() if isinstance(it, HeadingItem) else it.anchors))
+        ]
+        await self._show(
+            page.title, lambda: FormScreen(self._frame, page, everything), page, *words
+        )
+        await super().fill(page, sheet)
 
     async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
         await self._show(
@@ -228,7 +241,6 @@ class _Rehearsal(SimulatedParticipant):
     async def others(self) -> None:
         """The pages that a session without trouble does not come by."""
         texts, words = self._study.texts, self._study.texts.words
-        likert = filled(texts.likert, instructor=texts.instructors.second)
         for page in (
             texts.declined,
             texts.no_place,
@@ -236,7 +248,7 @@ class _Rehearsal(SimulatedParticipant):
             words.goodbye,
             words.busy,
             filled(words.trouble, problem="study.toml changed after the first participant"),
-            preceded(likert, texts.cut_off.mission),
+            preceded(Page(title=texts.mission.title, body=""), texts.cut_off.mission),
         ):
             await self._show(page.title, partial(PageScreen, self._frame, page), page)
         for window in windows(self._frame, texts, self._mission):
@@ -246,8 +258,10 @@ class _Rehearsal(SimulatedParticipant):
 async def rehearse(study: Study) -> list[Rehearsed]:
     """Every page of the study, in the order of a session with the longest memorise time. Nothing is
     written to the study's folder."""
-    cells = (design_cell(study.settings.seed, "pilot", slot) for slot in range(BLOCK))
-    slot, cell = next((n, it) for n, it in enumerate(cells) if it.long_memorise)
+    design, seed = study.settings.design, study.settings.seed
+    cells = (design.cell(seed, "pilot", slot) for slot in range(design.block))
+    longest = design.memorise - 1
+    slot, cell = next((n, it) for n, it in enumerate(cells) if it.memorise == longest)
     held = HeldStudy(
         **{name: getattr(study, name) for name in study.__dataclass_fields__ if name != "folder"},
         folder=Path(os.devnull),
@@ -277,4 +291,10 @@ def found_wrong(study: Study) -> tuple[list[str], list[Rehearsed]]:
         for page in pages
         if page.missing
     ]
-    return [*shortfalls(study), *hidden], pages
+    too_tall = [
+        f"page {page.name}: the question {question} has {rows} rows more than fit, so it is never "
+        "wholly in view; shorten it"
+        for page in pages
+        for question, rows in page.too_tall.items()
+    ]
+    return [*shortfalls(study), *hidden, *too_tall], pages

@@ -11,14 +11,13 @@ from game.errors import AnaError
 from game.journal.records import Preflighted
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import StudyMission, StudyMissionScreen
 from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen
 from game.screens.study.reason import ReasonScreen
-from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.signs import Signs
 from game.study.protocol.conduct import Stopped
@@ -98,17 +97,14 @@ class ScreenParticipant:
         sheet.begin()
 
         async def save(index: int) -> None:
-            await sheet.answer(asked, asked.low + index)
+            await sheet.answer(asked, asked.least + index)
 
         await self._show(
             ChoiceScreen(self._frame, page, asked.anchors, question=asked.text, save=save)
         )
 
-    async def slide(self, page: Page, sheet: Sheet) -> None:
-        await self._show(SlidersScreen(self._frame, page, sheet))
-
-    async def rate(self, page: Page, sheet: Sheet) -> None:
-        await self._show(LikertScreen(self._frame, page, sheet))
+    async def fill(self, page: Page, sheet: Sheet) -> None:
+        await self._show(FormScreen(self._frame, page, sheet))
 
     async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
         index = await self._show(ChoiceScreen(self._frame, page, options))

@@ -162,22 +162,23 @@ class Pause(ModalScreen[bool]):
 
 
 class Help(ModalScreen[None]):
-    """The keys, over the mission."""
+    """How to play, over a mission or another screen."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark,escape,enter,q,Q,space", "close", id="help.close"),
         Binding("ctrl+q,ctrl+c", "close", id="help.close.ctrl"),
     ]
 
-    def __init__(self, rules: MissionSettings) -> None:
+    def __init__(self, rules: MissionSettings, *, key: str = "Back to the mission") -> None:
         super().__init__()
         self._rules = rules
+        self._key = key
 
     def compose(self) -> ComposeResult:
         with Vertical(classes="dialog wide"):
             with VerticalScroll():
                 yield HowTo(self._rules)
-            yield KeyLine(("Enter", "Back to the mission"))
+            yield KeyLine(("Enter", self._key))
 
     def action_close(self) -> None:
         self.dismiss()

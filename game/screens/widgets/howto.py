@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import ClassVar
+from typing import ClassVar, Protocol, runtime_checkable
 
 from rich.cells import cell_len
 from textual.app import ComposeResult
@@ -15,6 +15,7 @@ from game.mission_words import ENGLISH, MissionWords
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind, player_kind
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.keymap import USUAL_KEYS, KeyMap
 from game.screens.widgets.statuspanel import clock_text
 from game.world.geometry import Heading
 from game.world.settings import FREE_PLAY, MissionSettings
@@ -45,17 +46,18 @@ _BESIDE = 52
 """from this column on."""
 
 
-def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
+def howto_rows(glyphs: GlyphSet, rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[Row]:
     """The page, drawn with the very glyphs of the mission. It fits the smallest screen."""
     signs = list(zip(_SIGNS, sign_rows(glyphs, rules), strict=True))
     long = [row for (kind, _), row in signs if kind not in _FEW_WORDS]
     short = [row for (kind, _), row in signs if kind in _FEW_WORDS]
-    others = [("+ -", "simpler or shorter words")] if rules.level_key else []
-    others += [("P", "pause")] if rules.allow_pause else []
-    others += [("?", "help"), ("Q", "leave")]
+    wishes = f"{keys.label('simpler')} {keys.label('shorter')}"
+    others = [(wishes, "simpler or shorter words")] if rules.level_key else []
+    others += [(keys.label("pause"), "pause")] if rules.allow_pause else []
+    others += [(keys.label("help"), "help"), (keys.label("leave"), "leave")]
     return [
         _heading("Rescue as many victims as you can. The yellow bar guides you."),
-        *walking_rows(turning=rules.controls == "turn"),
+        *walking_rows(turning=rules.controls == "turn", keys=keys),
         tuple(run for key, does in others for run in _key(f" {key} ", does)),
         BLANK,
         _heading("What you see"),
@@ -68,14 +70,19 @@ def howto_rows(glyphs: GlyphSet, rules: MissionSettings) -> list[Row]:
     ]
 
 
-def walking_rows(*, turning: bool, words: MissionWords = ENGLISH) -> list[Row]:
+def walking_rows(
+    *, turning: bool, words: MissionWords = ENGLISH, keys: KeyMap = USUAL_KEYS
+) -> list[Row]:
     """The keys by which the rescuer acts."""
-    legend = words.legend
-    walk = [("↑ ↓ ← →", legend.walk)]
-    turn = [("↑", legend.walk_ahead), ("← →", legend.turn)]
-    keys = [*(turn if turning else walk), (words.keys.space, legend.treat)]
-    columns = max(7, *(cell_len(key) for key, _ in keys))
-    return [_key(f" {_in_the_middle(key, columns)} ", does) for key, does in keys]
+    legend, label = words.legend, keys.label
+    walk = [(keys.walking or "↑ ↓ ← →", legend.walk if not keys.walking else "walk")]
+    ahead = legend.walk_ahead if not keys.walking else "walk the way you face"
+    sides = legend.turn if not keys.walking else "turn"
+    turn = [(label("up"), ahead), (f"{label('left')} {label('right')}", sides)]
+    treat = words.keys.space if "treat" not in keys.changed else label("treat")
+    named = [*(turn if turning else walk), (treat, legend.treat)]
+    columns = max(7, *(cell_len(key) for key, _ in named))
+    return [_key(f" {_in_the_middle(key, columns)} ", does) for key, does in named]
 
 
 def sign_rows(glyphs: GlyphSet, rules: MissionSettings, words: MissionWords = ENGLISH) -> list[Row]:
@@ -123,6 +130,13 @@ def _levels() -> Iterable[Row]:
     yield ((f"{_MARGIN:20}", ""), words, (" means: press ", ""), (" Space ", "key"))
 
 
+@runtime_checkable
+class HasKeys(Protocol):
+    """A program that knows the keys of missions."""
+
+    keys: KeyMap
+
+
 class HowTo(Canvas):
     """The page as a widget."""
 
@@ -134,7 +148,8 @@ class HowTo(Canvas):
 
     def on_mount(self) -> None:
         glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        self.draw(howto_rows(glyphs, self._rules))
+        keys = self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
+        self.draw(howto_rows(glyphs, self._rules, keys))
 
 
 class HowToScreen(Screen[None]):

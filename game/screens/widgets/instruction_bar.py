@@ -114,6 +114,8 @@ class InstructionBar(Canvas):
     def __init__(self) -> None:
         super().__init__([()] * LINES, id="bar")
         self.lines = LINES
+        self.flashes = True
+        """Whether new words stand out for a moment."""
         self._guidance = Guidance("")
         self._fresh_until = 0.0
 
@@ -124,7 +126,7 @@ class InstructionBar(Canvas):
         if settles:
             self._fresh_until = 0.0
         if guidance != self._guidance:
-            if announces(guidance, self._guidance):
+            if self.flashes and announces(guidance, self._guidance):
                 self._fresh_until = monotonic() + FLASH_S
             self._guidance = guidance
             self._draw()

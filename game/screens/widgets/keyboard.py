@@ -62,6 +62,8 @@ _BEGUN = re.compile(
 _PASTE_BEGINS = b"\x1b[200~"
 _PASTE_ENDS = re.compile(rb"\x1b\[201~")
 _SYNCHRONIZED = re.compile(rb"\x1b\[\?2026;[1-4]\$y")
+_CLICK = re.compile(rb"\x1b\[<0;\d{1,4};\d{1,4}[Mm]")
+"""The first button of the mouse, pressed or released."""
 _LETTER_KEY = re.compile(rb"\x1b\[1?;\d+[A-HPQS]")
 _NUMBER_KEY = re.compile(rb"\x1b\[(\d+)(?:;\d+)?~")
 _CODE_KEY = re.compile(rb"\x1b\[\d+(?:;\d*(?:;[\d:]*)?)?u")
@@ -75,6 +77,8 @@ class Keyboard:
     """
 
     def __init__(self) -> None:
+        self.pointing = False
+        """Whether a click of the mouse is believed too."""
         self._rest = bytearray()
         self._end: re.Pattern[bytes] | None = None
         self._pasted: bytearray | None = None
@@ -131,6 +135,8 @@ class Keyboard:
                 yield from _typed("\x1b")
             case "sequence" if found == _PASTE_BEGINS:
                 self._end, self._pasted = _PASTE_ENDS, bytearray()
+            case "sequence" if self.pointing and _CLICK.fullmatch(found):
+                yield from XTermParser().feed(found.decode())
             case "sequence":
                 yield from _believed(found)
             case "string" | "bits8":

@@ -10,6 +10,7 @@ from typing import Literal
 import msgspec
 from platformdirs import user_config_path
 
+from game.world.settings import Controls
 from game.world.variant import Difficulty, Victims
 
 Ground = Literal["dark", "light"]
@@ -24,12 +25,20 @@ class Preferences(msgspec.Struct, frozen=True):
     difficulty: Difficulty = "standard"
     coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
+    controls: Controls = "compass"
+    bell: bool = False
+    """Whether new words on the bar ring the terminal's bell."""
+    still: bool = False
+    """Whether new words stand out by themselves alone, without a flash of the bar."""
     memorise: Literal[0, 60, 180] = 0
     """For how many seconds the map is shown before a mission."""
 
-    def replaced(self, **changes: str | int) -> Preferences:
+    def replaced(self, **changes: str | int | None) -> Preferences:
         """These with some choices changed. Raises msgspec.ValidationError for an unknown one."""
         return msgspec.convert(msgspec.to_builtins(self) | changes, Preferences)
+
+
+USUAL_PREFERENCES = Preferences()
 
 
 def preferences_file() -> Path:
@@ -37,11 +46,16 @@ def preferences_file() -> Path:
     return user_config_path("ana", appauthor=False) / "home.json"
 
 
+def keys_file(preferences: Path) -> Path:
+    """Where keys are changed: beside the preferences."""
+    return preferences.with_name("keys.toml")
+
+
 def load_preferences(path: Path) -> Preferences:
     """What was kept at `path`; the defaults where there is nothing that can be read."""
     with suppress(OSError, msgspec.DecodeError):
         return msgspec.json.decode(path.read_bytes(), type=Preferences)
-    return Preferences()
+    return USUAL_PREFERENCES
 
 
 def save_preferences(path: Path, preferences: Preferences) -> None:

@@ -19,6 +19,7 @@ from textual.worker import WorkerFailed
 from game import __version__
 from game.errors import STATUS_DEFECT, AnaError, where
 from game.places import reports_folder
+from game.screens.widgets.keymap import USUAL_KEYS
 from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal_driver import TerminalDriver
 from game.screens.widgets.theme import LOOK, THEMES, Look, theme_name
@@ -39,6 +40,8 @@ class Program(App[None], inherit_bindings=False):
         for known in THEMES:
             self.register_theme(known)
         self.theme = theme
+        self.keys = USUAL_KEYS
+        """The keys of missions."""
         self.failure: AnaError | None = None
         """What the user can fix, and ended the program."""
         self.defect: Exception | None = None

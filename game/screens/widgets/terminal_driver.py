@@ -16,6 +16,8 @@ from game.screens.widgets.keyboard import Keyboard
 
 WHEEL_IS_NO_KEY = "\x1b[?1007l"
 """Alternate scroll off: it sends arrow keys for the wheel where a program fills the window."""
+CLICKS_ON, CLICKS_OFF = "\x1b[?1000h\x1b[?1006h", "\x1b[?1006l\x1b[?1000l"
+"""Reports of the mouse's buttons, and not of its motion."""
 WHEEL_AS_BEFORE = "\x1b[?1007h"
 _READ_BYTES = 1 << 16
 _GLANCE_S = 0.1
@@ -25,6 +27,15 @@ class TerminalDriver(LinuxDriver):
     """What `Keyboard` believes is all that reaches the program; whatever the locale says, the
     terminal is sent UTF-8."""
 
+    _pointing = False
+
+    def point(self, wanted: bool) -> None:
+        """From now on believe clicks of the mouse, and ask for them; or no longer."""
+        if wanted is not self._pointing:
+            self._pointing = wanted
+            self.write(CLICKS_ON if wanted else CLICKS_OFF)
+            self.flush()
+
     def start_application_mode(self) -> None:
         assert sys.__stderr__ is not None
         output = sys.__stderr__.fileno()
@@ -33,7 +44,7 @@ class TerminalDriver(LinuxDriver):
         )
         try:
             super().start_application_mode()  # type: ignore[no-untyped-call]
-            self.write(WHEEL_IS_NO_KEY)
+            self.write(WHEEL_IS_NO_KEY + (CLICKS_ON if self._pointing else ""))
             self.flush()
         except Exception:
             with suppress(Exception):
@@ -42,7 +53,7 @@ class TerminalDriver(LinuxDriver):
             raise
 
     def stop_application_mode(self) -> None:
-        self.write(WHEEL_AS_BEFORE)
+        self.write((CLICKS_OFF if self._pointing else "") + WHEEL_AS_BEFORE)
         super().stop_application_mode()
 
     def _query_in_band_window_resize(self) -> None:
@@ -65,6 +76,7 @@ class TerminalDriver(LinuxDriver):
                     if not data:
                         os.kill(os.getpid(), signal.SIGHUP)
                         return
+                    keyboard.pointing = self._pointing
                     for message in keyboard.feed(data, monotonic()):
                         self.process_message(message)
                 for message in keyboard.tick(monotonic()):

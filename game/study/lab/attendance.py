@@ -185,7 +185,7 @@ class SessionWatch:
         return found
 
 
-def _limit_s(phase: Phase, settings: StudySettings) -> float | None:
+def _limit_s(phase: str, settings: StudySettings) -> float | None:
     match phase:
         case "label":
             return float(settings.label_seconds)

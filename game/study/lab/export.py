@@ -18,11 +18,12 @@ import msgspec
 
 from game import __version__
 from game.errors import disk_hint
+from game.forms.reading import BLANK, ReadForms, read_forms
 from game.journal.folders import JOURNAL, SESSIONS
 from game.journal.reader import Transcript, read_file
 from game.journal.records import StudyMode
 from game.journal.sink import make_folders
-from game.study.folder import ITEMS, LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
+from game.study.folder import INSTRUCTIONS, LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
 from game.study.lab.anonymous import anonymised
 from game.study.lab.psychds import (
     IGNORE_FILES,
@@ -38,7 +39,7 @@ from game.study.lab.sessions import sessions_of
 from game.study.ledger import Ledger, LedgerEntry, slot_of
 from game.study.study_settings import read_settings
 from game.tables.rows import TableRow
-from game.tables.session_tables import ROW_TYPES, Tables, combined, tables_of
+from game.tables.session_tables import ROW_TYPES, Tables, combined, row_types, tables_of
 
 DATASET = "dataset.toml"
 """The optional file of `DatasetNotes` in the study folder."""
@@ -76,6 +77,7 @@ def export_study(
     """
     ledger = Ledger(folder / LEDGER)
     settings, _ = read_settings(folder / SETTINGS)
+    forms = read_forms(folder, BLANK)
     entries = ledger.entries()
     found: dict[StudyMode, Tables] = {}
     files: dict[str, bytes] = {}
@@ -86,11 +88,11 @@ def export_study(
         ]
         if anonymous:
             sessions = anonymised(sessions)
-        found[mode] = combined(tables_of(transcript for transcript, _ in sessions))
+        found[mode] = combined(tables_of((transcript for transcript, _ in sessions), forms.forms))
         for transcript, lines in sessions:
             files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
     _all_there(folder, modes, without, entries)
-    files |= _described(folder, settings.name, found, _Handling(tuple(without), anonymous))
+    files |= _described(folder, settings.name, forms, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
     _replace(out, files)
@@ -164,26 +166,29 @@ def _without_answer(line: bytes) -> bytes:
 
 
 def _described(
-    folder: Path, name: str, found: dict[StudyMode, Tables], handling: _Handling
+    folder: Path, name: str, forms: ReadForms, found: dict[StudyMode, Tables], handling: _Handling
 ) -> dict[str, bytes]:
     """All files except the raw journals, by path."""
+    types = row_types(forms.forms)
     texts = {
         f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
             table_text(row, tables.table(table))
         )
         for mode, tables in found.items()
-        for table, row in ROW_TYPES.items()
+        for table, row in types.items()
         if not (handling.anonymous and table == FREE_TEXT)
     }
     texts |= dict.fromkeys(IGNORE_FILES, IGNORED)
     texts["README.md"] = _readme(name, found, handling)
-    texts["documentation/codebook.md"] = codebook_page(ROW_TYPES)
-    texts["documentation/codebook.csv"] = codebook_table(ROW_TYPES)
+    texts["documentation/codebook.md"] = codebook_page(types)
+    texts["documentation/codebook.csv"] = codebook_table(types)
     files = {path: text.encode() for path, text in texts.items()}
-    rows: Sequence[type[TableRow]] = tuple(ROW_TYPES.values())
+    rows: Sequence[type[TableRow]] = tuple(types.values())
     files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
-    for material in (SETTINGS, TEXTS, ITEMS):
+    for material in (SETTINGS, TEXTS, forms.name):
         files[f"materials/{material}"] = (folder / material).read_bytes()
+    if (folder / INSTRUCTIONS).exists():
+        files[f"materials/{INSTRUCTIONS}"] = (folder / INSTRUCTIONS).read_bytes()
     return files | _versions(folder)
 
 
@@ -230,9 +235,9 @@ def _readme(name: str, found: dict[StudyMode, Tables], handling: _Handling) -> s
 - `data/raw/`: the journals that everything here was made from. Answers in participants' own words
   are emptied; every other complete line is unchanged. The journals contain the time of day.
 - `documentation/`: the codebook, as text and as a table.
-- `materials/`: the study's settings, and every text and question as participants saw it. In
-  `materials/{VERSIONS}/` every version of them, and every building; the numbers in the names begin
-  their SHA-256.
+- `materials/`: the study's settings, and every text, question and instruction as participants saw
+  it. In `materials/{VERSIONS}/` every version of them, and every building; the numbers in the names
+  begin their SHA-256.
 
 {tables}
 """

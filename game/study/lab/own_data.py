@@ -9,7 +9,7 @@ from game.journal.reader import read_file, read_journal
 from game.study.folder import Identity, Study, StudyError
 from game.study.lab.leaving import recorded
 from game.study.lab.psychds import codebook_page, table_text
-from game.tables.session_tables import ROW_TYPES, session_tables
+from game.tables.session_tables import row_types, session_tables
 
 
 def write_own_data(study: Study, identity: Identity, out: Path) -> int:
@@ -28,9 +28,10 @@ def write_own_data(study: Study, identity: Identity, out: Path) -> int:
         )
     if out.exists():
         raise StudyError("there already is such a folder", place=str(out), hint="Choose a new one")
-    tables = session_tables(read_journal(path))
-    files = {JOURNAL: read_file(path), "codebook.md": codebook_page(ROW_TYPES).encode()}
-    for name, row in ROW_TYPES.items():
+    tables = session_tables(read_journal(path), forms=study.forms)
+    types = row_types(study.forms)
+    files = {JOURNAL: read_file(path), "codebook.md": codebook_page(types).encode()}
+    for name, row in types.items():
         files[f"{name}.csv"] = table_text(row, tables.table(name)).encode()
     try:
         out.mkdir(mode=0o700, parents=True)

@@ -9,11 +9,12 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 
-from game.errors import AnaError
+from game.errors import AnaError, did_you_mean
 from game.journal.folders import SESSIONS
-from game.study.folder import LEDGER, TEXTS, Study
+from game.study.folder import INSTRUCTIONS, LEDGER, TEXTS, Study
 from game.study.lab.hindrances import Hindrances
 from game.study.ledger import lock_whole
+from game.toml_lines import at_line, line_of
 
 _TRIAL = ".check"
 
@@ -25,6 +26,7 @@ def shortfalls(study: Study) -> Iterator[str]:
     yield from _writing(study.folder)
     yield from _locale()
     yield from _half_time(study)
+    yield from _rooms(study)
 
 
 def _files(folder: Path) -> Iterator[str]:
@@ -81,6 +83,20 @@ def _locale() -> Iterator[str]:
     encoding = locale.getpreferredencoding(do_setlocale=False)
     if encoding.replace("-", "").casefold() != "utf8":
         yield f"the locale's encoding is {encoding}, not UTF-8: set LANG=C.UTF-8 for the account"
+
+
+def _rooms(study: Study) -> Iterator[str]:
+    """A sentence for a room that no building has, and that is nearly the name of one."""
+    rooms = {
+        room.name for building in (*study.buildings, study.practice) for room in building.rooms
+    }
+    said = study.phrases.own_sentences
+    for name in said:
+        hint = did_you_mean(name, rooms - set(said)) if name not in rooms else ""
+        if hint:
+            line = line_of(study.phrases.text, "C3", f"Goto {name}")
+            place = at_line(INSTRUCTIONS, line)
+            yield f"{place}: no building of this study has a room '{name}'. {hint}"
 
 
 def _half_time(study: Study) -> Iterator[str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import msgspec
 
-from game.study.design import BLOCK
+from game.forms.reading import BLANK, read_forms
 from game.study.folder import LEDGER, SETTINGS, kept_copy
 from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.lab.hindrances import Hindrances, not_come
@@ -22,7 +22,6 @@ from game.study.ledger import (
     LedgerEntry,
     SessionOutcome,
     SlotTaken,
-    StudyCreated,
     Unblinded,
     agreed_inputs,
     ending_of,
@@ -30,7 +29,7 @@ from game.study.ledger import (
 )
 from game.study.study_settings import SettingsError, StudySettings, read_settings
 from game.tables.exclusions import ExclusionRule
-from game.tables.session_tables import combined, tables_of
+from game.tables.session_tables import combined, row_types, tables_of
 
 
 class Totals(msgspec.Struct, frozen=True, kw_only=True):
@@ -129,7 +128,9 @@ def breakdown(folder: Path, rules: Sequence[ExclusionRule], why: str) -> tuple[C
         for entry in entries
         if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    people = combined(tables_of(sessions_of(folder, "live", entries))).participants
+    forms = read_forms(folder, BLANK).forms
+    rules = [it for it in rules if it.column in row_types(forms)["participants"].__struct_fields__]
+    people = combined(tables_of(sessions_of(folder, "live", entries), forms)).participants
     counts = []
     for code in sorted({entry.cell.code for entry in taken.values()}):
         here = [
@@ -161,13 +162,11 @@ def _totals(
         if isinstance(entry, SessionOutcome) and entry.mode == "live"
     }
     ended = Counter(ending_of(entries, person, "live") for person in people)
-    created = [entry.blocks for entry in entries if isinstance(entry, StudyCreated)]
     slots = {
         entry.slot for entry in entries if isinstance(entry, SlotTaken) and entry.mode == "live"
     }
-    blocks = created[0] if created else settings.blocks
     return Totals(
-        places=blocks * BLOCK,
+        places=settings.all_places,
         taken=len(slots),
         started=sum(states.values()) + ended["withdrawn"],
         taking_part=states["taking part"],

@@ -44,16 +44,19 @@ class Translation:
         text = (self._folder / ROOMS).read_text(encoding="utf-8")
         return {english: str(name) for english, name in tomllib.loads(text).items()}
 
-    def files(self, buildings: Iterable[str]) -> dict[str, str]:
-        """The files of a study folder, by name: the texts, and `buildings` with rooms renamed."""
-        texts = {
-            it.name: it.read_text(encoding="utf-8")
-            for it in self._folder.iterdir()
-            if it.name.endswith(".toml") and it.name != ROOMS
+    @property
+    def texts(self) -> dict[str, str]:
+        """Files of a study folder, by name."""
+        names = (it.name for it in self._folder.iterdir() if it.name.endswith(".toml"))
+        return {
+            name: (self._folder / name).read_text(encoding="utf-8")
+            for name in names
+            if name != ROOMS
         }
-        return texts | {
-            f"{name}.txt": self._renamed(load_building(name).text) for name in buildings
-        }
+
+    def buildings(self, names: Iterable[str]) -> dict[str, str]:
+        """The files of shipped buildings, with their rooms renamed."""
+        return {f"{name}.txt": self._renamed(load_building(name).text) for name in names}
 
     def _renamed(self, building: str) -> str:
         rooms = self.rooms

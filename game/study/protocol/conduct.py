@@ -8,21 +8,22 @@ next thing begins.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
 from typing import Literal, Protocol
 
 from game.coach.knowledge.assumed import QuizMark
-from game.coach.spec import CoachSpec, coach_given
+from game.coach.spec import CoachSpec
+from game.coach.yoke import Yoke
 from game.errors import AnaError, where
+from game.forms.form import Form
+from game.forms.items import HeadingItem, Item
 from game.journal.history import History, Step
 from game.journal.records import (
-    ROUNDS,
     Allocated,
     Consented,
     Debriefed,
     FreeText,
-    Phase,
     PhaseEnded,
     PhaseStarted,
     PracticeChecked,
@@ -40,14 +41,12 @@ from game.study.protocol.practice import (
     practice_legs,
 )
 from game.study.protocol.study_session import StudySession
-from game.study.protocol.tasks import Asked, Exposure, Labelling, Memorising, Playing, Sheet
+from game.study.protocol.tasks import Exposure, Labelling, Memorising, Playing, Sheet
 from game.study.protocol.timeline import Point, next_point
 from game.study.study_settings import ScreenSize, StudySettings
-from game.study.texts import LIKERT_POINTS, Consent, Page, filled, followed, preceded
+from game.study.texts import Consent, Page, filled, followed, preceded
 from game.world.building import Building, Severity
 from game.world.geometry import Cell, Heading
-
-SLIDER_POINTS = 100
 
 
 class Stopped(Exception):
@@ -82,15 +81,11 @@ class Participant(Protocol):
         ...
 
     async def choose(self, page: Page, sheet: Sheet) -> None:
-        """Answer one question by one of its anchors, from 1."""
+        """Answer the one question by one of its answers."""
         ...
 
-    async def slide(self, page: Page, sheet: Sheet) -> None:
-        """Answer every question by a number between two anchors."""
-        ...
-
-    async def rate(self, page: Page, sheet: Sheet) -> None:
-        """Answer every question by one of its anchors, from 1."""
+    async def fill(self, page: Page, sheet: Sheet) -> None:
+        """Answer what must be answered, and whatever else they like."""
         ...
 
     async def prefer(self, page: Page, options: tuple[str, str]) -> Literal[1, 2]:
@@ -132,9 +127,12 @@ async def _to_the_end(session: StudySession, who: Participant) -> Page:
     try:
         if not session.history.over:
             await session.see_place()
-        while (point := next_point(session.history, session.study.settings)).step is not None:
+        while (step := (point := _next(session)).step) is not None:
             await _settle(session, point)
-            await _PHASES[point.step.phase](session, who, point.step, point.exposure_ms)
+            if step.round and session.history.allocated is None:
+                session.enter(step)
+                await session.allocate()
+            await _PHASES.get(step.phase, _form)(session, who, step, point.exposure_ms)
     except NoPlace:
         await session.turn_away()
         return texts.no_place
@@ -143,6 +141,10 @@ async def _to_the_end(session: StudySession, who: Participant) -> Page:
     if not session.history.over:
         await session.finish("finished")
     return filled(texts.debrief, code=session.completion_code)
+
+
+def _next(session: StudySession) -> Point:
+    return next_point(session.history, session.study.settings, session.study.course)
 
 
 async def _settle(session: StudySession, point: Point) -> None:
@@ -194,10 +196,8 @@ async def _practice(session: StudySession, who: Participant, step: Step, _seen_m
         assert task.run is not None
         task.leave(task.run.mission.time_ms)
         stand = task.run.mission.position, task.run.mission.heading
-    right = await _check(session, who)
-    await session.save(
-        PracticeChecked(right=right, asked=len(study.items.check)), PhaseEnded("completed", 0)
-    )
+    right, asked = await _check(session, who)
+    await session.save(PracticeChecked(right=right, asked=asked), PhaseEnded("completed", 0))
 
 
 async def _teach(session: StudySession, who: Participant, leg: PracticeLeg, *, again: bool) -> None:
@@ -210,18 +210,22 @@ async def _teach(session: StudySession, who: Participant, leg: PracticeLeg, *, a
             await who.read(lesson)
 
 
-async def _check(session: StudySession, who: Participant) -> int:
-    """The check at the end of practice, with feedback; returns the number of right answers."""
-    texts, right = session.study.texts, 0
-    for check in session.study.items.check:
-        asked = Asked(check.id, check.text, check.answers, 1, len(check.answers))
-        sheet = Sheet(session, (asked,))
+async def _check(session: StudySession, who: Participant) -> tuple[int, int]:
+    """The check at the end of practice, with feedback; returns the number of right answers, and of
+    questions."""
+    texts, form, right = session.study.texts, session.study.forms.check, 0
+    if form is None:
+        return 0, 0
+    page = Page(title=form.title, body=form.body)
+    for question in form.questions:
+        sheet = Sheet(session, (question,))
         if not sheet.complete:
-            await who.choose(texts.check, sheet)
-            told = texts.check_right if sheet.value(asked) == check.right else texts.check_wrong
-            await who.read(filled(told, answer=check.answers[check.right - 1]))
-        right += sheet.value(asked) == check.right
-    return right
+            await who.choose(page, sheet)
+            right_now = question.is_right(sheet.value(question))
+            told = texts.check_right if right_now else texts.check_wrong
+            await who.read(filled(told, answer=question.anchors[question.rights[0] - 1]))
+        right += question.is_right(sheet.value(question))
+    return right, len(form.questions)
 
 
 async def _memorise(session: StudySession, who: Participant, step: Step, seen_ms: int) -> None:
@@ -265,35 +269,55 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     await who.read(followed(page, texts.level_key.text) if rules.level_key else page)
     await _start(session, step, rules.duration_ms)
     quiz = quiz_marks(session.history, building, step.round)
-    spec = instructor(await _allocated(session), step.round, study.settings, quiz)
+    allocated = await _allocated(session)
+    leads = study.settings.pair[allocated.second_leads(step.round)]
+    yoke = None
+    if leads.takes("yoke"):
+        yoke = await asyncio.to_thread(study.yoke_for, session.identity, building)
+    spec = instructor(allocated, step.round, study.settings, quiz, yoke)
     task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
     assert task.run is not None
     await session.save(PhaseEnded("completed", task.run.mission.time_ms))
 
 
-async def _sliders(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+async def _form(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
+    """Any form, wherever it is asked."""
     await _start(session, step, None)
-    texts, items = session.study.texts, session.study.items
-    asked = tuple(
-        Asked(slider.id, slider.text, (slider.low, slider.high), 1, SLIDER_POINTS)
-        for slider in shuffled(items.slider, lambda it: it.id, session.seed, "sliders", step.round)
-    )
-    page = filled(texts.mental_state, instructor=texts.instructors.of(step.round))
-    if session.history.endings.get(Step("mission", step.round)) == "interrupted":
-        page = preceded(page, texts.cut_off.mission)
-    await who.slide(page, Sheet(session, asked))
+    texts = session.study.texts
+    form, _ = session.study.forms.occasion(step.phase)
+    page = Page(title=form.title, body=form.body)
+    if step.round:
+        page = filled(page, instructor=texts.instructors.of(step.round))
+        first = next(it for it in session.study.course if it.round == step.round and _is_form(it))
+        interrupted = session.history.endings.get(Step("mission", step.round)) == "interrupted"
+        if step == first and interrupted:
+            page = preceded(page, texts.cut_off.mission)
+    sheet = Sheet(session, items_in_order(form, session.seed, step.round))
+    await who.fill(page, sheet)
+    await sheet.close()
     await session.save(PhaseEnded("completed", 0))
 
 
-async def _likert(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
-    await _start(session, step, None)
-    texts, items = session.study.texts, session.study.items
-    order = shuffled(items.statement, lambda it: it.id, session.seed, "statements", step.round)
-    asked = tuple(Asked(it.id, it.text, items.scale.answers, 1, LIKERT_POINTS) for it in order)
-    page = filled(texts.likert, instructor=texts.instructors.of(step.round))
-    await who.rate(page, Sheet(session, asked))
-    await session.save(PhaseEnded("completed", 0))
+def _is_form(step: Step) -> bool:
+    return step.phase not in _PHASES
+
+
+_DRAWN_AS = {"likert": "statements"}
+"""The paper's form was drawn under this name before forms were data: sessions stay the same."""
+
+
+def items_in_order(form: Form, seed: int, round_: int) -> tuple[Item, ...]:
+    """A form's items as one participant sees them in a round."""
+
+    def drawn(groups: Sequence[tuple[Item, ...]]) -> tuple[tuple[Item, ...], ...]:
+        return shuffled(groups, _leader, seed, _DRAWN_AS.get(form.id, form.id), round_)
+
+    return form.in_order(drawn)
+
+
+def _leader(group: tuple[Item, ...]) -> str:
+    return "" if isinstance(group[0], HeadingItem) else group[0].id
 
 
 async def _preference(session: StudySession, who: Participant, step: Step, _seen_ms: int) -> None:
@@ -333,29 +357,29 @@ async def _debrief(session: StudySession, _who: Participant, step: Step, _seen_m
     await session.save(Debriefed(session.completion_code), PhaseEnded("completed", 0))
 
 
-_PHASES: dict[Phase, Callable[[StudySession, Participant, Step, int], Awaitable[None]]] = {
+_PHASES: dict[str, Callable[[StudySession, Participant, Step, int], Awaitable[None]]] = {
     "preflight": _preflight,
     "consent": _consent,
     "practice": _practice,
     "memorise": _memorise,
     "label": _label,
     "mission": _mission,
-    "sliders": _sliders,
-    "likert": _likert,
     "preference": _preference,
     "debrief": _debrief,
 }
 
 
 def instructor(
-    allocated: Allocated, round_: int, settings: StudySettings, quiz: dict[str, QuizMark]
+    allocated: Allocated,
+    round_: int,
+    settings: StudySettings,
+    quiz: dict[str, QuizMark],
+    yoke: Yoke | None = None,
 ) -> CoachSpec:
-    """Who coaches a round. Only a coach that asks for the round's label quiz is given it."""
-    if allocated.adaptive_first is (round_ == ROUNDS[0]):
-        return coach_given(
-            settings.coach, level=allocated.static_level, preset=settings.preset, quiz=quiz
-        )
-    return CoachSpec("static", level=allocated.static_level)
+    """Who coaches a round. Only a coach that asks for the round's label quiz is given it, and only
+    one that repeats the levels of another mission, `yoke`."""
+    leads = settings.pair[allocated.second_leads(round_)]
+    return leads.spec(allocated.static_level, settings.preset, quiz, yoke)
 
 
 async def _allocated(session: StudySession) -> Allocated:

@@ -132,16 +132,25 @@ class StudySession:
         def take() -> Allocated:
             study.freeze()
             settings = study.settings
-            taken = study.ledger.allocate(participant, mode, refill=settings.refill_dropouts)
-            cell = taken.cell
-            first, second = (settings.buildings[index] for index in cell.buildings)
+            taken = study.ledger.allocate(
+                participant,
+                mode,
+                refill=settings.refill_dropouts,
+                design=settings.design,
+                places=settings.all_places,
+            )
+            cell, count = taken.cell, len(settings.buildings)
             return Allocated(
                 slot=taken.slot,
                 refill=taken.refill,
-                memorise_ms=settings.memorise_ms(cell.long_memorise),
+                memorise_ms=settings.memorise_ms(cell.memorise),
                 adaptive_first=cell.adaptive_first,
                 static_level=cell.static_level,
-                buildings=(first, second),
+                buildings=tuple(
+                    settings.buildings[(cell.first_building + round_) % count]
+                    for round_ in range(settings.rounds)
+                ),
+                instructors=settings.instructors or (),
             )
 
         await self.save(await asyncio.to_thread(take))
@@ -227,7 +236,14 @@ def open_session(
 def see_place(study: Study, identity: Identity) -> None:
     """Check that a participant has a place or can get one. Raises NoPlace; writes nothing."""
     mode, participant = identity
-    study.ledger.see_place(participant, mode, refill=study.settings.refill_dropouts)
+    settings = study.settings
+    study.ledger.see_place(
+        participant,
+        mode,
+        refill=settings.refill_dropouts,
+        design=settings.design,
+        places=settings.all_places,
+    )
 
 
 def _admit(study: Study, identity: Identity) -> None:

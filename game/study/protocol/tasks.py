@@ -5,12 +5,23 @@ Screens and simulated people work on the same task objects, which do all the rec
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.spec import CoachSpec
-from game.journal.records import Exposed, QuestionnaireAnswer, QuizAnswer
+from game.forms.form import shown
+from game.forms.items import OTHER, Answer, AnyQuestion, ChoiceItem, HeadingItem, Item, TextItem
+from game.journal.records import (
+    AnswerCleared,
+    ChoicesGiven,
+    Exposed,
+    FreeText,
+    QuestionnaireAnswer,
+    QuizAnswer,
+    Record,
+)
 from game.session.playing import begin_mission, leave_mission
 from game.session.run import MissionRun
 from game.study.chance import number, shuffled
@@ -128,22 +139,15 @@ class Labelling:
         await self._session.save(*answers)
 
 
-@dataclass(frozen=True)
-class Asked:
-    """One questionnaire item as shown; values run from `low` to `high`."""
-
-    item: str
-    text: str
-    anchors: tuple[str, ...]
-    low: int
-    high: int
-
-
 class Sheet:
-    """A page of questions, in the order shown."""
+    """A page of items, in the order shown, and the answers given so far."""
 
-    def __init__(self, session: StudySession, asked: tuple[Asked, ...]) -> None:
-        self.asked = asked
+    def __init__(self, session: StudySession, items: Sequence[Item]) -> None:
+        self.items = tuple(items)
+        self.questions: tuple[AnyQuestion, ...] = tuple(
+            it for it in self.items if not isinstance(it, HeadingItem)
+        )
+        """Every question, shown or not."""
         self._session = session
         self._shown_ms = session.now_ms()
 
@@ -151,38 +155,107 @@ class Sheet:
         """The page is on the screen from now on."""
         self._shown_ms = self._session.now_ms()
 
-    def value(self, asked: Asked) -> int | None:
+    @property
+    def shown(self) -> tuple[Item, ...]:
+        """The items that are shown, as the answers are now."""
+        return shown(self.items, self._earlier)
+
+    @property
+    def asked(self) -> tuple[AnyQuestion, ...]:
+        """The questions among them."""
+        return tuple(it for it in self.shown if not isinstance(it, HeadingItem))
+
+    def value(self, question: AnyQuestion) -> Answer | None:
         """The answer given so far."""
-        answer = self._session.history.items.get((self._session.step, asked.item))
-        return None if answer is None else answer.value
+        return self._session.history.answer(self._session.step, question.id)
+
+    def other(self, question: AnyQuestion) -> str:
+        """What was written beside the answer `other`."""
+        words = self._session.history.words.get((self._session.step, question.id + OTHER))
+        return "" if words is None else words.answer
+
+    def answered(self, question: AnyQuestion) -> bool:
+        """Whether there is an answer; where something must be written, words as well."""
+        value = self.value(question)
+        if isinstance(question, TextItem):
+            return bool(value)
+        if isinstance(question, ChoiceItem) and question.has_other(value):
+            return bool(self.other(question)) or not question.required
+        return value is not None
+
+    @property
+    def missing(self) -> tuple[AnyQuestion, ...]:
+        """The questions that must be answered, and are not."""
+        return tuple(it for it in self.asked if it.required and not self.answered(it))
 
     @property
     def complete(self) -> bool:
-        return all(self.value(asked) is not None for asked in self.asked)
+        return not self.missing
 
-    @property
-    def missing(self) -> tuple[Asked, ...]:
-        return tuple(asked for asked in self.asked if self.value(asked) is None)
+    async def answer(self, question: AnyQuestion, value: Answer) -> None:
+        """Record an answer unless it is unchanged. Raises ValueError for one that cannot be."""
+        if not question.allows(value):
+            raise ValueError(f"{question.id} is not answered by {value!r}")
+        if self.value(question) != value:
+            await self._session.save(self._record(question, value))
 
-    async def answer(self, asked: Asked, value: int) -> None:
-        """Record an answer unless it is unchanged. Raises ValueError if it is out of range."""
-        if not asked.low <= value <= asked.high:
-            raise ValueError(f"{asked.item} is answered from {asked.low} to {asked.high}")
-        before = self._session.history.items.get((self._session.step, asked.item))
-        if before is not None and before.value == value:
-            return
-        await self._session.save(
-            QuestionnaireAnswer(
-                item=asked.item,
-                text=asked.text,
-                anchors=asked.anchors,
-                place=self.asked.index(asked),
-                value=value,
-                response_ms=self._session.now_ms() - self._shown_ms,
-                changes=0 if before is None else before.changes + 1,
-                version=self._session.study.version,
-            )
-        )
+    async def write_other(self, question: ChoiceItem, words: str) -> None:
+        """Record what was written beside the answer `other`, unless it is unchanged."""
+        if self.other(question) != words:
+            await self._session.save(self._words(question.id + OTHER, question.other, words))
+
+    async def clear(self, question: AnyQuestion, *, hidden: bool = False) -> None:
+        """Take an answer back, with what was written beside it."""
+        for name in (question.id, question.id + OTHER):
+            step = self._session.step
+            if (step, name) in self._session.history.words or (
+                self._session.history.answer(step, name) is not None
+            ):
+                await self._session.save(
+                    AnswerCleared(
+                        item=name,
+                        hidden=hidden,
+                        response_ms=self._session.now_ms() - self._shown_ms,
+                        version=self._session.study.version,
+                    )
+                )
+
+    async def close(self) -> None:
+        """Take back what was answered to questions that are no longer shown."""
+        asked = {question.id for question in self.asked}
+        for question in self.questions:
+            if question.id not in asked:
+                await self.clear(question, hidden=True)
+
+    def _earlier(self, item: str) -> Answer | None:
+        here = self._session.history.answer(self._session.step, item)
+        if here is not None:
+            return here
+        if any(question.id == item for question in self.questions):
+            return None
+        return self._session.history.latest_answer(item, self._session.step.round)
+
+    def _record(self, question: AnyQuestion, value: Answer) -> Record:
+        if isinstance(value, str):
+            return self._words(question.id, question.text, value)
+        step, history = self._session.step, self._session.history
+        before = history.items.get((step, question.id)) or history.choices.get((step, question.id))
+        shared: dict[str, Any] = {
+            "item": question.id,
+            "text": question.text,
+            "anchors": question.anchors,
+            "place": self.questions.index(question),
+            "response_ms": self._session.now_ms() - self._shown_ms,
+            "changes": 0 if before is None else before.changes + 1,
+            "version": self._session.study.version,
+        }
+        if isinstance(value, tuple):
+            return ChoicesGiven(chosen=value, **shared)
+        return QuestionnaireAnswer(value=value, **shared)
+
+    def _words(self, item: str, text: str, words: str) -> FreeText:
+        now_ms = self._session.now_ms() - self._shown_ms
+        return FreeText(item, text, words, now_ms, version=self._session.study.version)
 
 
 class Playing:

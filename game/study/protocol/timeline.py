@@ -1,4 +1,4 @@
-"""The phases of a session in order, how far a journal shows it has got, and where to continue.
+"""How far a journal shows that a session has got, and where to continue.
 
 Pure: what the screens show and where a session resumes follow from the records alone.
 """
@@ -8,19 +8,8 @@ from __future__ import annotations
 from typing import Literal, NamedTuple
 
 from game.journal.history import History, PhaseEnding, Step
-from game.journal.records import ROUNDS, Phase
+from game.study.course import Course
 from game.study.study_settings import StudySettings
-
-ROUND_PHASES: tuple[Phase, ...] = ("memorise", "label", "mission", "sliders", "likert")
-
-TIMELINE: tuple[Step, ...] = (
-    Step("preflight"),
-    Step("consent"),
-    Step("practice"),
-    *(Step(phase, number) for number in ROUNDS for phase in ROUND_PHASES),
-    Step("preference"),
-    Step("debrief"),
-)
 
 
 class Point(NamedTuple):
@@ -35,8 +24,8 @@ class Point(NamedTuple):
     settle: tuple[tuple[Step, PhaseEnding], ...]
 
 
-def next_point(so_far: History, settings: StudySettings) -> Point:
-    """Where a session continues after `so_far`; `step` is None when it is over.
+def next_point(so_far: History, settings: StudySettings, steps: Course) -> Point:
+    """Where a session of these steps continues after `so_far`; `step` is None when it is over.
 
     An untimed phase starts again; a timed one follows the study's setting for it.
     """
@@ -51,13 +40,13 @@ def next_point(so_far: History, settings: StudySettings) -> Point:
         if rule == "end":
             settled.append((begun, "interrupted"))
         elif rule == "void":
-            settled += [(step, "void") for step in _rest_of_round(begun)]
+            settled += [(step, "void") for step in _rest_of_round(begun, steps)]
     behind = {**so_far.endings, **dict(settled)}
-    following = next((step for step in TIMELINE if step not in behind), None)
+    following = next((step for step in steps if step not in behind), None)
     return Point(following, 0, tuple(settled))
 
 
-def _rule(phase: Phase, settings: StudySettings) -> Literal["again", "continue", "end", "void"]:
+def _rule(phase: str, settings: StudySettings) -> Literal["again", "continue", "end", "void"]:
     match phase:
         case "memorise":
             return settings.interruption.memorise
@@ -69,5 +58,5 @@ def _rule(phase: Phase, settings: StudySettings) -> Literal["again", "continue",
             return "again"
 
 
-def _rest_of_round(step: Step) -> tuple[Step, ...]:
-    return tuple(other for other in TIMELINE[TIMELINE.index(step) :] if other.round == step.round)
+def _rest_of_round(step: Step, steps: Course) -> Course:
+    return tuple(other for other in steps[steps.index(step) :] if other.round == step.round)

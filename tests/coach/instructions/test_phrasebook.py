@@ -14,7 +14,8 @@ from game.coach.instructions.reading import letters, words
 from game.coach.instructions.vocabulary import Tuple
 from game.toml_lines import line_of
 
-JAPANESE = Path("tests/data/japanese/instructions.toml").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[3]
+JAPANESE = (ROOT / "tests/data/japanese/instructions.toml").read_text(encoding="utf-8")
 ENGLISH = english().text
 
 

@@ -15,8 +15,9 @@ from game.journal.reader import read_journal
 from game.journal.records import Paused
 from game.screens.play.app import AnaApp, PlayOptions
 from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
-from game.screens.play.home import BUILDINGS, HomeScreen, menu_items, menu_rows
+from game.screens.play.home import BUILDINGS, HomeScreen, menu_items
 from game.screens.play.map_screen import MapScreen
+from game.screens.play.menu import menu_rows
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import width

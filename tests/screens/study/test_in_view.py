@@ -11,17 +11,16 @@ import pytest
 from rich.cells import cell_len
 from textual.pilot import Pilot
 
+from game.forms.items import ScaleItem, SliderItem
 from game.journal.history import History, Step
-from game.journal.records import QuestionnaireAnswer
+from game.journal.records import Envelope, QuestionnaireAnswer
 from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
-from game.screens.study.likert import LikertScreen
+from game.screens.study.form_screen import TYPED_S, FormScreen
 from game.screens.study.rehearsal import Make, _Showing, painted
-from game.screens.study.sheet import SheetScreen
-from game.screens.study.sliders import TYPED_S, SlidersScreen
 from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
-from game.study.protocol.tasks import Asked, Sheet
+from game.study.protocol.tasks import Sheet
 from game.study.study_settings import ScreenSize
 from game.study.texts import Page, shipped_texts
 
@@ -56,15 +55,24 @@ class Session:
     async def save(self, *records: QuestionnaireAnswer) -> None:
         for record in records:
             self.kept.append(record)
-            self.history.items[self.step, record.item] = record
+            self.history.note(Envelope(0, 0, 0, "", self.step.phase, self.step.round), record)
 
 
-def asked(count: int, anchors: tuple[str, ...], high: int) -> tuple[Asked, ...]:
-    text = (
-        "Wie sehr haben Sie sich während der gesamten Mission von der Begleitung verstanden gefühlt"
-    )
+TEXT = "Wie sehr haben Sie sich während der gesamten Mission von der Begleitung verstanden gefühlt"
+
+
+def sliders(count: int, anchors: tuple[str, str]) -> tuple[SliderItem, ...]:
+    low, high = anchors
     return tuple(
-        Asked(f"item{n}", f"{n}. {text}, Teil {n}?", anchors, 1, high) for n in range(count)
+        SliderItem(id=f"item{n}", text=f"{n}. {TEXT}, Teil {n}?", low=low, high=high)
+        for n in range(count)
+    )
+
+
+def scales(count: int) -> tuple[ScaleItem, ...]:
+    return tuple(
+        ScaleItem(id=f"item{n}", text=f"{n}. {TEXT}, Teil {n}?", answers=POINTS)
+        for n in range(count)
     )
 
 
@@ -75,7 +83,7 @@ async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[N
         yield pilot, pilot.app.screen
 
 
-def whole(screen: SheetScreen, app: Any) -> bool:
+def whole(screen: FormScreen, app: Any) -> bool:
     """Whether all words of the active question are in the window; of words that may be broken
     anywhere, all letters."""
     lines = "".join("".join(line.split()) for line in painted(app))
@@ -90,11 +98,11 @@ def whole(screen: SheetScreen, app: Any) -> bool:
 @pytest.mark.parametrize("size", [(120, 40), (80, 24)])
 @pytest.mark.parametrize("anchors", [GERMAN, JAPANESE], ids=["german", "japanese"])
 async def test_every_slider_is_in_view_when_it_is_answered(
-    anchors: tuple[str, ...], size: tuple[int, int]
+    anchors: tuple[str, str], size: tuple[int, int]
 ) -> None:
     session, frame = Session(), Frame(ScreenSize(columns=size[0], rows=size[1]), WORDS)
-    sheet = Sheet(cast(StudySession, session), asked(10, anchors, 100))
-    async with at(lambda: SlidersScreen(frame, PAGE, sheet), *size) as (pilot, screen):
+    sheet = Sheet(cast(StudySession, session), sliders(10, anchors))
+    async with at(lambda: FormScreen(frame, PAGE, sheet), *size) as (pilot, screen):
         for number in range(10):
             for _ in range(3):
                 await pilot.press("4")
@@ -111,8 +119,8 @@ async def test_every_slider_is_in_view_when_it_is_answered(
 
 async def test_every_statement_is_in_view_when_it_is_answered() -> None:
     session, frame = Session(), Frame(ScreenSize(), WORDS)
-    sheet = Sheet(cast(StudySession, session), asked(12, POINTS, 5))
-    async with at(lambda: LikertScreen(frame, PAGE, sheet), 120, 40) as (pilot, screen):
+    sheet = Sheet(cast(StudySession, session), scales(12))
+    async with at(lambda: FormScreen(frame, PAGE, sheet), 120, 40) as (pilot, screen):
         for number in range(12):
             for _ in range(3):
                 await pilot.press("2")
@@ -123,13 +131,13 @@ async def test_every_statement_is_in_view_when_it_is_answered() -> None:
             assert whole(screen, pilot.app)
             await pilot.press("down")
         await pilot.press("down", "down")
-        assert screen.asked.item == "item11"
+        assert screen.asked.id == "item11"
 
 
 async def test_digits_belong_together_for_a_while_and_each_is_recorded() -> None:
     session, frame = Session(), Frame(ScreenSize(), WORDS)
-    sheet = Sheet(cast(StudySession, session), asked(2, ("low", "high"), 100))
-    async with at(lambda: SlidersScreen(frame, PAGE, sheet), 120, 40) as (pilot, _):
+    sheet = Sheet(cast(StudySession, session), sliders(2, ("low", "high")))
+    async with at(lambda: FormScreen(frame, PAGE, sheet), 120, 40) as (pilot, _):
         await pilot.press("8")
         await pilot.pause(0.7 * TYPED_S)
         await pilot.press("5")

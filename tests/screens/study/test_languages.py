@@ -24,7 +24,8 @@ from game.study.lab.readiness import shortfalls
 from game.study.languages import Translation, languages
 from game.world import load_building
 
-JAPANESE = Path("tests/data/japanese")
+ROOT = Path(__file__).parents[3]
+GERMAN, JAPANESE = ROOT / "game/study/languages/de", ROOT / "tests/data/japanese"
 ROOMS = (
     *("図書室", "会議室", "受付", "食堂", "倉庫", "書庫", "作業場", "休憩室", "研究室", "応接室"),
     *("放送室", "暗室", "中庭", "給湯室", "医務室", "事務室", "電算室", "資料室", "印刷室", "台所"),
@@ -34,6 +35,7 @@ BUILDINGS = ("foundry", "harbour", "practice")
 
 def japanese_study(folder: Path) -> Study:
     new_study(folder, seed=3, blocks=1)
+    (folder / "forms.toml").unlink(missing_ok=True)
     for path in JAPANESE.glob("*.toml"):
         shutil.copy(path, folder / path.name)
     settings = (folder / "study.toml").read_text()
@@ -69,11 +71,11 @@ def test_nobody_in_a_german_study_reads_english(tmp_path: Path) -> None:
 @pytest.mark.parametrize("columns", [80, 100, 120, 200])
 @pytest.mark.parametrize("language", ["en", "de", "ja"])
 def test_the_bar_keeps_its_height_and_cuts_nothing(language: str, columns: int) -> None:
-    source = {"de": "game/study/languages/de", "ja": str(JAPANESE)}.get(language)
+    source = {"de": GERMAN, "ja": JAPANESE}.get(language)
     phrases = english()
     if source:
-        text = (Path(source) / "instructions.toml").read_text(encoding="utf-8")
-        phrases = parse_phrasebook(text, source)
+        text = (source / "instructions.toml").read_text(encoding="utf-8")
+        phrases = parse_phrasebook(text, language)
     lines = lines_needed(phrases, ROOMS, columns)
     assert 3 <= lines <= 4
     for guidance in longest_guidance(phrases, ROOMS):
@@ -111,23 +113,24 @@ def test_a_german_study_is_simulated_verified_and_says_the_english_tuples(tmp_pa
     assert not {it.text for it in told["en"]} & {it.text for it in told["de"]}
 
 
-def keys(tree: object) -> object:
+def keys(tree: object) -> set[str]:
     """The keys of a tree of texts."""
-    return {key: keys(it) for key, it in tree.items()} if isinstance(tree, dict) else None
+    below = tree.items() if isinstance(tree, dict) else ()
+    return {path for key, it in below for path in (key, *(f"{key}.{one}" for one in keys(it)))}
 
 
-@pytest.mark.parametrize("folder", ["game/study/languages/de", str(JAPANESE)])
-def test_a_translation_has_every_text(folder: str) -> None:
+@pytest.mark.parametrize("folder", [GERMAN, JAPANESE], ids=lambda it: it.name)
+def test_a_translation_has_every_text(folder: Path) -> None:
     """Older study folders may lack some; a translation that comes with the game may not."""
-    english_texts = Path("game/study/template/texts.toml").read_text(encoding="utf-8")
-    translated = (Path(folder) / "texts.toml").read_text(encoding="utf-8")
-    assert keys(tomllib.loads(translated)) == keys(tomllib.loads(english_texts))
+    english_texts = (ROOT / "game/study/template/texts.toml").read_text(encoding="utf-8")
+    translated = (folder / "texts.toml").read_text(encoding="utf-8")
+    assert keys(tomllib.loads(translated)) >= keys(tomllib.loads(english_texts))
 
 
 @pytest.mark.parametrize("name", BUILDINGS)
 def test_a_translated_building_differs_in_its_room_names_alone(name: str) -> None:
     translation = Translation("de")
-    text = translation.files([name])[f"{name}.txt"]
+    text = translation.buildings([name])[f"{name}.txt"]
     back = {german: room for room, german in translation.rooms.items()}
     there = re.sub(r"(?m)^(\S = room )(.*)$", lambda it: it[1] + back[it[2]], text)
     assert there == load_building(name).text
@@ -135,7 +138,7 @@ def test_a_translated_building_differs_in_its_room_names_alone(name: str) -> Non
 
 def test_every_german_room_has_a_sentence_of_its_own() -> None:
     translation = Translation("de")
-    text = translation.files([])["instructions.toml"]
+    text = translation.texts["instructions.toml"]
     assert {f'"Goto {room}" = ' in text for room in translation.rooms.values()} == {True}
 
 
@@ -145,6 +148,15 @@ def test_a_language_that_there_is_not_is_refused(
     assert main(["study", "new", str(tmp_path / "study"), "--language", "dee"]) == 2
     assert "Did you mean de?" in capsys.readouterr().err
     assert not (tmp_path / "study").exists()
+
+
+def test_a_sentence_for_a_misspelt_room_is_found(tmp_path: Path) -> None:
+    new_study(tmp_path / "study", seed=3, blocks=1, language="de")
+    path = tmp_path / "study" / "instructions.toml"
+    path.write_text(path.read_text().replace('"Goto Empfang"', '"Goto Empfnag"'))
+    (found,) = shortfalls(open_study(tmp_path / "study"))
+    assert "has a room 'Empfnag'. Did you mean Empfang?" in found
+    assert re.match(r"instructions.toml, line \d+: ", found)
 
 
 def test_study_check_names_the_line_of_a_sentence_that_is_wrong(

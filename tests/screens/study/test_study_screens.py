@@ -36,14 +36,13 @@ from game.journal.sink import FileSink
 from game.screens.study.app import StudyApp
 from game.screens.study.base import StudyScreen
 from game.screens.study.choice import ChoiceScreen
+from game.screens.study.form_screen import FormScreen
 from game.screens.study.label import LabelScreen
-from game.screens.study.likert import LikertScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_page import Reminder, StudyMissionScreen
 from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall
 from game.screens.study.reason import MOST_LETTERS, ReasonScreen
-from game.screens.study.sliders import SlidersScreen
 from game.screens.widgets.dialogs import Question
 from game.screens.widgets.signs import Signs
 from game.study.folder import Study, open_study
@@ -94,6 +93,17 @@ async def closed(pilot: Pilot[Any]) -> None:
             return
         await pilot.pause(0.02)
     raise AssertionError("it goes on")
+
+
+async def form(pilot: Pilot[None], phase: str) -> FormScreen:
+    """The form of a phase, once it is on the screen."""
+    for _ in range(1000):
+        session = pilot.app.session  # type: ignore[attr-defined]
+        if session is not None and session.step.phase == phase:
+            shown: FormScreen = await until(pilot, FormScreen)
+            return shown
+        await pilot.pause(0.02)
+    raise AssertionError(f"{pilot.app.screen} is shown, not {phase}")
 
 
 def records(study: Study, kind: type, phase: str = "", segment: int | None = None) -> list[Any]:
@@ -171,14 +181,14 @@ async def test_declining(tmp_path: Path) -> None:
 
 async def test_a_small_window_is_asked_to_grow(study: Study) -> None:
     async with at(study, Step("sliders", 1)) as pilot:
-        sliders = await until(pilot, SlidersScreen)
+        sliders = await form(pilot, "sliders")
         await pilot.resize_terminal(100, 30)
         await until(pilot, WindowTooSmall)
         assert "100 x 30" in painted(pilot.app.screen)
         assert "120 x 40" in painted(pilot.app.screen)
         await pilot.press("7")
         await pilot.resize_terminal(140, 50)
-        assert await until(pilot, SlidersScreen) is sliders
+        assert await form(pilot, "sliders") is sliders
     assert not records(study, QuestionnaireAnswer, "sliders")
 
 
@@ -226,7 +236,7 @@ async def test_a_mission_goes_on_unseen_and_the_tables_say_for_how_long(study: S
         assert study.texts.words.mission_goes_on in painted(pilot.app.screen)
         await pilot.pause(1.0)
         await pilot.resize_terminal(*SIZE)
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     (ended,) = records(study, PhaseEnded, "mission", segment=1)
     assert ended == PhaseEnded("completed", 6_000)
     (covered,) = records(study, Covered, "mission", segment=1)
@@ -245,7 +255,7 @@ async def test_a_mission_that_ends_unseen_has_its_covered_time(study: Study) -> 
         while not records(study, PhaseEnded, "mission", segment=1):
             await pilot.pause(0.1)
         await pilot.resize_terminal(*SIZE)
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     covered = sum(it.covered_ms for it in records(study, Covered, "mission", segment=1))
     assert 3_000 <= covered <= 6_500
     (played,) = session_tables(journal_of(study)).rounds[:1]
@@ -259,7 +269,7 @@ async def test_a_window_too_small_can_be_left(study: Study, phase: Phase) -> Non
             await until(pilot, PageScreen)
             await pilot.press("enter")
         kinds: dict[Phase, type[Screen[Any]]] = {
-            "sliders": SlidersScreen,
+            "sliders": FormScreen,
             "memorise": MemoriseScreen,
         }
         await until(pilot, kinds.get(phase, StudyMissionScreen))
@@ -279,7 +289,7 @@ async def test_coming_back_in_a_small_window(study: Study) -> None:
     async with StudyApp(study, P01).run_test(size=(80, 24)) as pilot:
         await until(pilot, WindowTooSmall)
         await pilot.resize_terminal(*SIZE)
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     await let_go(study)
 
 
@@ -298,7 +308,7 @@ async def test_preflight_waits_for_a_window_large_enough(tmp_path: Path) -> None
 
 async def test_a_larger_window_has_blank_margins(study: Study) -> None:
     async with at(study, Step("sliders", 1)) as pilot:
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
         await pilot.resize_terminal(160, 50)
         await pilot.pause()
         lines = painted(pilot.app.screen).split("\n")
@@ -394,7 +404,7 @@ async def test_a_mission_is_played_to_its_end(study: Study) -> None:
         await until(pilot, Question)
         await pilot.press("n")
         assert pilot.app.screen is mission
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     (ended,) = records(study, PhaseEnded, "mission", segment=1)
     assert ended == PhaseEnded("completed", 6_000)
     assert not records(study, Paused)
@@ -415,47 +425,49 @@ async def test_leaving_a_mission_ends_it_and_the_sliders_follow(study: Study) ->
     assert records(study, MissionAbandoned, "mission")
     assert records(study, SessionEnded) == [SessionEnded("quit")]
     async with at(study) as pilot:
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     (ended,) = records(study, PhaseEnded, "mission")
     assert ended.ending == "interrupted"
 
 
 async def test_sliders_stand_nowhere_until_moved(study: Study) -> None:
     async with at(study, Step("sliders", 1)) as pilot:
-        sliders = await until(pilot, SlidersScreen)
+        sliders = await form(pilot, "sliders")
         await pilot.press(*["enter"] * 5)
-        assert isinstance(pilot.app.screen, SlidersScreen)
+        assert isinstance(pilot.app.screen, FormScreen)
         assert not records(study, QuestionnaireAnswer, "sliders", segment=1)
-        sliders.action_turn(-sliders._active)
+        await sliders.turn_to(sliders.sheet.asked[0].id)
         await pilot.press("4", "2", "down", "end", "left", "down", "right", "pageup", "down")
         await pilot.press("enter")
         assert pilot.app.screen is sliders
         await pilot.press("home", "enter")
-        await until(pilot, LikertScreen)
+        await form(pilot, "likert")
     last = {a.item: a for a in records(study, QuestionnaireAnswer, "sliders", segment=1)}
     by_place = sorted(last.values(), key=lambda answer: answer.place)
     assert [answer.value for answer in by_place] == [42, 99, 60, 1]
-    assert {answer.item for answer in by_place} == {item.id for item in study.items.slider}
+    assert {answer.item for answer in by_place} == {
+        it.id for it in study.forms.occasion("sliders").form.questions
+    }
 
 
 async def test_answers_given_before_a_cut_are_still_there(study: Study) -> None:
     async with at(study, Step("sliders", 1)) as pilot:
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
         await pilot.press("7", "down", "8", "down")
         await pilot.pause(0.1)
     async with at(study) as pilot:
-        sliders = await until(pilot, SlidersScreen)
-        assert [value for value in sliders.values if value is not None] == [7, 8]
+        sliders = await form(pilot, "sliders")
+        assert [sliders.sheet.value(it) for it in sliders.sheet.asked] == [7, 8, None, None]
         await pilot.press("ctrl+c")
         await until(pilot, Question)
         await pilot.press("n")
         await pilot.press("down", "down", "9", "enter", "9", "enter")
-        await until(pilot, LikertScreen)
+        await form(pilot, "likert")
 
 
 async def test_statements(study: Study) -> None:
     async with at(study, Step("likert", 2)) as pilot:
-        likert = await until(pilot, LikertScreen)
+        likert = await form(pilot, "likert")
         await pilot.press("5", "enter", "left", "left", "9", "enter", "1")
         await pilot.press("enter", "enter")
         assert pilot.app.screen is likert
@@ -463,7 +475,9 @@ async def test_statements(study: Study) -> None:
         await until(pilot, ChoiceScreen)
     last = {a.item: a for a in records(study, QuestionnaireAnswer, "likert", segment=1)}
     assert [a.value for a in sorted(last.values(), key=lambda a: a.place)] == [5, 2, 1, 3]
-    assert all(answer.anchors == study.items.scale.answers for answer in last.values())
+    assert all(
+        answer.anchors == study.forms.occasion("likert").form.answers for answer in last.values()
+    )
 
 
 async def test_preference_reason_and_the_end(study: Study) -> None:
@@ -559,6 +573,6 @@ async def test_a_second_login_may_take_over(study: Study) -> None:
     async with at(study) as pilot:
         await until(pilot, Question)
         await pilot.press("y")
-        await until(pilot, SlidersScreen)
+        await form(pilot, "sliders")
     assert await other.wait() != 0
     assert len(records(study, TakenOver)) == 1

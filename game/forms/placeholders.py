@@ -1,9 +1,9 @@
-"""Which facts a study's texts can have filled in: those of the shipped text at the same place."""
+"""Which facts texts can have filled in: those of the shipped text at the same place."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -26,29 +26,32 @@ def check_placeholders(given: Mapping[str, Any], shipped: Mapping[str, Any], pla
     """Raise PlaceholderError, naming `place` and the key, unless `given`, a tree of texts, asks
     only for what `shipped` has there."""
     for key, text, known in _texts(given, shipped, ""):
-        for name in _PLACEHOLDER.findall(text):
-            if name not in known:
-                hint = (
-                    choose_from(name, [f"{{{one}}}" for one in sorted(known)])
-                    if known
-                    else "Nothing can be filled in here; write the words themselves"
-                )
-                raise PlaceholderError(
-                    f"there is no {{{name}}} to be filled in", place=f"{place}, {key}", hint=hint
-                )
-        for almost in _ALMOST.finditer(text):
-            word, written = almost[1] or almost[2], almost[0].strip()
-            name = next(iter(get_close_matches(word, known, 1)), "")
-            if name and written != f"{{{name}}}":
-                raise PlaceholderError(
-                    f"'{written}' is not filled in",
-                    place=f"{place}, {key}",
-                    hint=f"Write {{{name}}}",
-                )
+        check_text(text, known, f"{place}, {key}")
     for page, name in REQUIRED:
         if name not in _names(given.get(page, {})):
             raise PlaceholderError(
                 f"the page lacks {{{name}}}", place=f"{place}, {page}", hint=f"Add {{{name}}}"
+            )
+
+
+def check_text(text: str, known: Collection[str], place: str) -> None:
+    """Raise PlaceholderError, naming `place`, where a text asks for anything but `known`."""
+    for name in _PLACEHOLDER.findall(text):
+        if name not in known:
+            hint = (
+                choose_from(name, [f"{{{one}}}" for one in sorted(known)])
+                if known
+                else "Nothing can be filled in here; write the words themselves"
+            )
+            raise PlaceholderError(
+                f"there is no {{{name}}} to be filled in", place=place, hint=hint
+            )
+    for almost in _ALMOST.finditer(text):
+        word, written = almost[1] or almost[2], almost[0].strip()
+        name = next(iter(get_close_matches(word, known, 1)), "")
+        if name and written != f"{{{name}}}":
+            raise PlaceholderError(
+                f"'{written}' is not filled in", place=place, hint=f"Write {{{name}}}"
             )
 
 

@@ -1,0 +1,144 @@
+"""A form with every kind of item, driven by keys."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import pytest
+
+from game.forms.items import (
+    ChoiceItem,
+    Condition,
+    HeadingItem,
+    Item,
+    NumberItem,
+    ScaleItem,
+    SliderItem,
+    TextItem,
+)
+from game.screens.study.base import Frame
+from game.screens.study.form_screen import FormScreen
+from game.screens.study.rehearsal import painted
+from game.study.protocol.study_session import StudySession
+from game.study.protocol.tasks import Sheet
+from game.study.study_settings import ScreenSize
+from game.study.texts import Page, shipped_texts
+from tests.screens.study.test_in_view import Session, at
+
+WORDS = shipped_texts().words
+PAGE = Page(title="About you", body="Please answer.")
+ITEMS: tuple[Item, ...] = (
+    HeadingItem(text="First things first"),
+    NumberItem(id="age", text="How old are you?", from_=18, to=99, unit="years"),
+    ChoiceItem(id="plays", text="Do you play?", answers=("never", "often"), other="else:"),
+    ChoiceItem(
+        id="kinds",
+        text="Which?",
+        answers=("maps", "puzzles", "sports"),
+        several=True,
+        shown_when=Condition(item="plays", is_=(2, 3)),
+    ),
+    ScaleItem(id="seven", text="How good?", answers=tuple("abcdefg")),
+    SliderItem(id="warm", text="How warm?", low="cold", high="hot", from_=0, to=10),
+    TextItem(id="words", text="Anything else?", length=12, required=False),
+)
+
+
+@pytest.fixture(autouse=True)
+def _hearing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(FormScreen, "DEAF_S", 0.0)
+
+
+def made(session: Session, items: tuple[Item, ...] = ITEMS) -> Any:
+    sheet = Sheet(cast(StudySession, session), items)
+    return lambda: FormScreen(Frame(ScreenSize(), WORDS), PAGE, sheet)
+
+
+def answers(session: Session) -> dict[str, Any]:
+    names = {name for _, name in session.history.items} | {
+        name for kept in (session.history.choices, session.history.words) for _, name in kept
+    }
+    return {name: session.history.answer(session.step, name) for name in names}
+
+
+async def test_every_kind_is_answered_by_its_keys_in_one_go() -> None:
+    session = Session()
+    async with at(made(session), 120, 40) as (pilot, screen):
+        assert screen.asked.id == "age"
+        await pilot.press("3", "5", "backspace", "4", "down", "3", *"flute", "down")
+        await pilot.press("1", "right", "right", "space", "down", "6", "left")
+        await pilot.press("down", "right", "right", "enter", *"hello you", "enter")
+        await pilot.pause()
+        assert screen._done
+    assert answers(session) == {
+        "age": 34,
+        "plays": 3,
+        "plays_other": "flute",
+        "kinds": (1, 3),
+        "seven": 5,
+        "warm": 6,
+        "words": "hello you",
+    }
+
+
+async def test_a_number_out_of_range_is_refused_and_said() -> None:
+    session = Session()
+    async with at(made(session), 120, 40) as (pilot, screen):
+        await pilot.press("7", "down")
+        assert screen.asked.id == "age"
+        assert "a whole number from 18 to 99" in "\n".join(painted(pilot.app))
+        await pilot.press("7", "down")
+        assert screen.asked.id == "plays"
+    assert answers(session) == {"age": 77}
+
+
+async def test_what_is_too_long_is_not_cut() -> None:
+    session = Session()
+    item = TextItem(id="words", text="Anything?", length=5)
+    async with at(made(session, (item,)), 120, 40) as (pilot, screen):
+        await pilot.press(*"longsx", "enter")
+        assert not screen._done
+        assert "Too many: 1" in "\n".join(painted(pilot.app))
+        await pilot.press("backspace", "enter")
+        await pilot.pause()
+        assert screen._done
+    assert answers(session) == {"words": "longs"}
+
+
+async def test_a_question_is_shown_only_where_its_condition_holds() -> None:
+    session = Session()
+    async with at(made(session), 120, 40) as (pilot, screen):
+        await pilot.press("4", "0", "down", "2", "down", "2")
+        assert answers(session)["kinds"] == (2,)
+        await pilot.press("up", "1")
+        await pilot.pause()
+        assert "Which?" not in "\n".join(painted(pilot.app))
+        await pilot.press("down")
+        assert screen.asked.id == "seven"
+        await screen.sheet.close()
+    assert "kinds" not in answers(session)
+    assert answers(session)["plays"] == 1
+
+
+async def test_optional_questions_are_visited_and_can_be_cleared() -> None:
+    session = Session()
+    items = (
+        ScaleItem(id="a", text="A?", answers=("no", "yes"), required=False),
+        ScaleItem(id="b", text="B?", answers=("no", "yes"), required=False),
+    )
+    async with at(made(session, items), 120, 40) as (pilot, screen):
+        await pilot.press("2", "delete", "enter")
+        assert screen.asked.id == "b"
+        assert not screen._done
+        await pilot.press("enter")
+        await pilot.pause()
+        assert screen._done
+    assert answers(session) == {}
+
+
+async def test_a_question_taller_than_the_window_is_told() -> None:
+    session = Session()
+    many = tuple(f"answer {n}" for n in range(39))
+    items = (ChoiceItem(id="country", text="Where?", answers=many),)
+    async with at(made(session, items), 120, 40) as (_, screen):
+        assert screen.too_tall() == {"country": 5}
