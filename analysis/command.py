@@ -70,7 +70,8 @@ def command(
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
     from analysis.battery import analyse_source, preregister
-    from analysis.sources.source import holds_live_sessions
+    from analysis.sources.source import holds_live_sessions, is_study_source
+    from analysis.sources.study_folder import mode_of
 
     if prereg is not None:
         if out or report or figures:
@@ -81,6 +82,9 @@ def command(
         return 0
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
+
+    if is_study_source(source):
+        game.refuse_unlike_ledger(source, mode_of(source, mode))
 
     def loaded() -> None:
         if holds_live_sessions(source, mode):
