@@ -179,7 +179,7 @@ async def test_the_page_is_deaf_until_the_keys_were_still(
 async def test_the_card_is_copied_and_written(open_app: Open) -> None:
     async with open_app(duration_ms=1_000) as (app, pilot):
         result = await until(pilot, ResultScreen)
-        await asyncio.sleep(STILL_S + 0.1)
+        await asyncio.sleep(stillness.STILL_S + 0.1)
         await press(pilot, "c")
         notice = await until(pilot, Notice)
         assert "0 of 3 rescued" in str(notice.query("Static").last().render())
