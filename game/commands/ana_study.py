@@ -90,7 +90,9 @@ def print_design(folder: Path) -> None:
 
 @study_group.command("forms", short_help="Print ready forms to copy from.")
 @click.argument("name", required=False, metavar="[NAME]")
-def print_form(name: str | None) -> None:
+@click.option("--language", default="en", show_default=True, metavar="CODE",
+              help="The language of the form: en or de.")  # fmt: skip
+def print_form(name: str | None, language: str) -> None:
     """List the ready forms, or print one of them.
 
     To ask it in a study: ana study forms NAME >> DIR/forms.toml
@@ -98,7 +100,7 @@ def print_form(name: str | None) -> None:
     from game.study.ready import ready_names, ready_text, summary
 
     if name is not None:
-        click.echo(ready_text(name), nl=False)
+        click.echo(ready_text(name, language), nl=False)
         return
     width = max(map(len, ready_names()))
     for one in ready_names():
