@@ -215,7 +215,8 @@ def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> 
 def amend_settings(folder: Path, why: str) -> None:
     """Record that something was changed after the first participant, and why.
 
-    That is study.toml, texts.toml, forms.toml or a building. Until then nobody can log in.
+    That is study.toml, texts.toml, forms.toml, instructions.toml or a building. Until then nobody
+    can log in.
     """
     from game.study.folder import amend
 

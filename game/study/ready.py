@@ -4,47 +4,39 @@ from __future__ import annotations
 
 import tomllib
 from importlib import resources
-from importlib.resources.abc import Traversable
 from typing import Any
 
 from game.errors import AnaError, choose_from
 from game.forms.form import Forms
 from game.forms.reading import FORMS, forms_in, paper_text
-from game.study.languages import ENGLISH, Translation, languages
+from game.study.languages import ENGLISH, Translation
 
-_ENDING = ".toml"
+_FOLDER = "ready_forms"
 PAPER = "paper"
 """The name of the forms of a new study."""
 
 
 def ready_names() -> tuple[str, ...]:
     """The names of all ready forms."""
-    found = (it.name for it in _folder(ENGLISH).iterdir() if it.name.endswith(_ENDING))
-    return (PAPER, *sorted(name.removesuffix(_ENDING) for name in found))
+    found = (resources.files("game.study") / _FOLDER).iterdir()
+    return (PAPER, *sorted(it.name.removesuffix(".toml") for it in found))
 
 
 def ready_text(name: str, language: str = ENGLISH) -> str:
-    """A ready form as it is written in forms.toml. Raises AnaError for a name or a language that
-    there is not."""
+    """A ready form as it is written in forms.toml. Raises AnaError for a name or language that is
+    none."""
     if name not in ready_names():
         raise AnaError(f"there is no ready form '{name}'", hint=choose_from(name, ready_names()))
-    if language not in languages():
-        hint = choose_from(language, languages())
-        raise AnaError(f"there is no translation '{language}'", place="--language", hint=hint)
-    if name == PAPER and language == ENGLISH:
-        return paper_text()
+    if language != ENGLISH:
+        translation = Translation(language)
+        return translation.texts[FORMS] if name == PAPER else translation.ready_form(name)
     if name == PAPER:
-        return Translation(language).texts[FORMS]
-    return (_folder(language) / f"{name}{_ENDING}").read_text(encoding="utf-8")
-
-
-def _folder(language: str) -> Traversable:
-    here = resources.files("game.study")
-    return (here if language == ENGLISH else here / "languages" / language) / "ready_forms"
+        return paper_text()
+    return (resources.files("game.study") / _FOLDER / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def ready_forms(name: str, language: str = ENGLISH) -> Forms:
-    """A ready form, read. Raises AnaError as `ready_text` does."""
+    """A ready form, read. Raises AnaError for a name or language that is none."""
     tree: dict[str, Any] = {"version": "1"} | tomllib.loads(ready_text(name, language))
     return forms_in(tree, name)
 
