@@ -7,7 +7,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar, get_args
 
-from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
@@ -23,6 +22,7 @@ from game.screens.play.past_missions import (
     of_kind,
     past_missions,
 )
+from game.screens.widgets.aside import aside
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
 from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
@@ -188,18 +188,11 @@ class HomeScreen(Pointed, Screen[None]):
 
     def on_mount(self) -> None:
         self._show()
-        self._read()
-
-    @work(thread=True)
-    def _read(self) -> None:
-        """Read what was played before, meanwhile."""
-        past = past_missions(newest_journals(self._log_dir))
-        self.app.call_from_thread(self._have_read, past)
+        aside(self, lambda: past_missions(newest_journals(self._log_dir)), self._have_read)
 
     def _have_read(self, past: tuple[PastMission, ...]) -> None:
         self._past = past
-        if self.is_attached:
-            self._show()
+        self._show()
 
     def prefer(self, preferences: Preferences) -> None:
         """Show other preferences."""
