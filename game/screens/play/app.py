@@ -331,10 +331,9 @@ class AnaApp(Program, inherit_bindings=False):
         return PlayOptions(building, self._coach(), rules, seed, self._log_dir(), onward="same")
 
     def _coach(self) -> CoachSpec:
-        from game.coach.spec import parse_coach
+        from game.screens.play.home import spec_of
 
-        kind, _, level = self.preferences.coach.partition("-")
-        return parse_coach(kind, int(level) if level else None)
+        return spec_of(self.preferences.coach)
 
     # --- the tutorial ---------------------------------------------------------------------------
 
