@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from textual.containers import VerticalScroll
+from textual.pilot import Pilot
 from textual.screen import Screen
 
 from game.coach.spec import parse_coach
@@ -24,7 +25,7 @@ from game.screens.play.replay_screen import ReplayScreen
 from game.screens.play.result import ResultScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
-from game.screens.widgets.canvas import Canvas, width
+from game.screens.widgets.canvas import Canvas, Row, width
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question, TooSmall
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.stillness import STILL_S
@@ -317,6 +318,30 @@ async def test_the_screen_tells_nothing_but_the_observation(
     for building in (ward, other):
         async with open_app(size=size, building=building) as (_, pilot):
             mission = await until(pilot, MissionScreen)
-            view = mission.view
-            pictures.append([view.office.rows, view.minimap.rows, view.status.rows])
+            pictures.append(await settled(pilot, mission))
     assert pictures[0] == pictures[1]
+
+
+async def settled(pilot: Pilot[None], mission: MissionScreen) -> list[list[Row]]:
+    """The first picture, once the space has been divided and it changes no more."""
+    view, before = mission.view, None
+    while True:
+        await pilot.pause()
+        shown = [view.office.rows, view.minimap.rows, view.status.rows]
+        if shown == before and all(shown):
+            return shown
+        before = shown
+
+
+@pytest.mark.parametrize(
+    ("size", "large"), [((80, 24), False), ((120, 40), False), ((160, 50), True), ((200, 60), True)]
+)
+async def test_cells_are_large_where_there_is_room(
+    open_app: Open, size: tuple[int, int], large: bool
+) -> None:
+    async with open_app(size=size) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        await settled(pilot, mission)
+        office = mission.view.office
+        player = [run[0] for row in office.rows for run in row if run[1] == "player"]
+        assert (len(player), {len(text) for text in player}) == ((2, {4}) if large else (1, {2}))
