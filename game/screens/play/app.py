@@ -171,16 +171,16 @@ class AnaApp(Program, inherit_bindings=False):
         self.exit(return_code=2)
 
     def action_stand_aside(self) -> None:
-        """Stop the clock, and give the terminal back to the shell that started the game."""
+        """Stop the clock, where the rules allow that, and give the terminal back to the shell that
+        started the game."""
         from game.screens.play.map_screen import MapScreen
         from game.screens.play.mission_screen import LiveScreen
         from game.screens.widgets.dialogs import Notice
 
         screen = self.screen
         if isinstance(screen, LiveScreen):
-            if not screen.live.settings.allow_pause:
-                return
-            screen.action_pause()
+            if screen.live.settings.allow_pause:
+                screen.action_pause()
         elif isinstance(screen, MapScreen):
             self.push_screen(Notice("Paused", "The time for the map stands still.", key="Resume"))
         if has_job_control():
