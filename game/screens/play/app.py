@@ -272,8 +272,9 @@ class AnaApp(Program, inherit_bindings=False):
         """The settings, over whatever is shown."""
         from game.screens.play.home import HomeScreen
         from game.screens.play.settings_screen import SettingsScreen
+        from game.screens.widgets.dialogs import TooSmall
 
-        if not isinstance(self.screen, ModalScreen):
+        if not isinstance(self.screen, SettingsScreen | TooSmall):
             file = keys_file(self._preferences_file)
             write_template(file)
             if isinstance(self.screen, HomeScreen):
