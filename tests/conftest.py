@@ -13,6 +13,7 @@ MISSING = {
     "root may read everything": "a user who is not root",
     "OpenSSH's server or client is not installed": "an OpenSSH server",
     "Chromium is not installed": "Chromium",
+    "no font has the signs of the map": "the font DejaVu Sans Mono",
     "the extra `cluster` is not installed": "the extra cluster",
 }
 """The reasons for which a test may be skipped, and what is missing then."""

@@ -14,6 +14,8 @@ from game.world.settings import Controls
 from game.world.variant import Difficulty, Victims
 
 Ground = Literal["dark", "light"]
+CellSize = Literal["small", "auto", "large"]
+"""How large the cells of the office are drawn; `auto` is large where there is much room."""
 
 
 class Preferences(msgspec.Struct, frozen=True):
@@ -26,6 +28,7 @@ class Preferences(msgspec.Struct, frozen=True):
     coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
     controls: Controls = "compass"
+    cells: CellSize = "auto"
     bell: bool = False
     """Whether new words on the bar ring the terminal's bell."""
     still: bool = False

@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Mapping
 from traceback import format_exception
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import click
 from rich.console import RenderableType
@@ -24,10 +24,6 @@ from game.screens.widgets.preferences import Ground
 from game.screens.widgets.terminal_driver import TerminalDriver
 from game.screens.widgets.theme import LOOK, THEMES, Look, theme_name
 
-Cells = Literal["auto", "normal", "large"]
-"""Cells of the office: large ones take 4 x 2 of the terminal's, normal ones 2 x 1; `auto` goes by
-the room there is."""
-
 
 class Program(App[None], inherit_bindings=False):
     """Nobody ever sees a traceback: whatever fails unexpectedly ends the program, which leaves the
@@ -35,12 +31,9 @@ class Program(App[None], inherit_bindings=False):
 
     ENABLE_COMMAND_PALETTE: ClassVar[bool] = False
 
-    def __init__(
-        self, wanted: Ground | None = None, look: Look = LOOK, cells: Cells = "auto"
-    ) -> None:
+    def __init__(self, wanted: Ground | None = None, look: Look = LOOK) -> None:
         theme = theme_name(os.environ, wanted, look)
         self.look = look
-        self.cells = cells
         super().__init__(
             driver_class=TerminalDriver, ansi_color=True if theme == "ana-terminal" else None
         )

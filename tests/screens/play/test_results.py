@@ -29,11 +29,12 @@ from game.screens.play.past_missions import (
     past_missions,
     standing,
 )
-from game.screens.play.result import STILL_S, ResultScreen, result_pages
+from game.screens.play.result import ResultScreen, result_pages
 from game.screens.play.result_card import card_svg, card_text
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Notice
+from game.screens.widgets.stillness import STILL_S
 from game.session.playing import end_free_play, start_free_play, start_in_memory
 from game.session.replay import Replay
 from game.world import load_building

@@ -22,12 +22,13 @@ from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
-from game.screens.play.result import STILL_S, ResultScreen
+from game.screens.play.result import ResultScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
 from game.screens.widgets.canvas import Canvas, Row, width
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question, TooSmall
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.stillness import STILL_S
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
@@ -330,17 +331,3 @@ async def settled(pilot: Pilot[None], mission: MissionScreen) -> list[list[Row]]
         if shown == before and all(shown):
             return shown
         before = shown
-
-
-@pytest.mark.parametrize(
-    ("size", "large"), [((80, 24), False), ((120, 40), False), ((160, 50), True), ((200, 60), True)]
-)
-async def test_cells_are_large_where_there_is_room(
-    open_app: Open, size: tuple[int, int], large: bool
-) -> None:
-    async with open_app(size=size) as (_, pilot):
-        mission = await until(pilot, MissionScreen)
-        await settled(pilot, mission)
-        office = mission.view.office
-        player = [run[0] for row in office.rows for run in row if run[1] == "player"]
-        assert (len(player), {len(text) for text in player}) == ((2, {4}) if large else (1, {2}))
