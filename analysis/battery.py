@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from analysis.report import summary
-from analysis.sources.absent import Absent, Plain, Row, Tree, attempt, plain
+from analysis.sources.absent import Absent, Leaf, Plain, Row, Tree, attempt, plain
 from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.sources.provenance import provenance
@@ -277,7 +277,29 @@ def analyse_source(
             made,
             report,
         )
+        if is_study_folder(source):
+            from analysis.pages.missions_page import missions_html
+            from analysis.sources.replays import read_replays
+
+            page = missions_html(read_replays(source, mode), result.study)
+            (report / "missions.html").write_text(page, encoding="utf-8")
     return result
+
+
+def preregister(source: Path, out: Path, alpha: float = ALPHA) -> None:
+    """Write the planned analysis of the study in a folder, or of a study.toml, to `out`.
+
+    Raises SourceError where the settings cannot be read, OSError where `out` cannot be written.
+    """
+    from analysis.pages.preregistration import settings_file, write_preregistration
+
+    path = settings_file(source)
+    rules = read_rules()
+    if not (path.parent / "forms.toml").is_file():
+        rules = rules.known_to(())  # no forms, no attention checks
+    settings: dict[str, Leaf] = {"alpha": alpha, "exclusion_rule": rules.main().name}
+    made = provenance(path, None, None, settings, {})
+    write_preregistration(source, out, rules, alpha, made)
 
 
 def _problems(

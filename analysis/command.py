@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
@@ -35,6 +37,8 @@ _PATH = click.Path(path_type=Path)
 @click.option("--json", "out", type=_PATH, metavar="OUT.json", help="Write all numbers there.")
 @click.option("--report", type=_PATH, metavar="DIR",
               help="Write a results section in the paper's order into DIR.")  # fmt: skip
+@click.option("--prereg", type=_PATH, metavar="FILE",
+              help="Write the planned analysis of a study to FILE (.md, .docx).")  # fmt: skip
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
 @click.option("--mode", type=click.Choice(STUDY_MODES),
@@ -49,6 +53,7 @@ def command(
     source: Path,
     out: Path | None,
     report: Path | None,
+    prereg: Path | None,
     figures: Path | None,
     quiz: Path | None,
     mode: StudyMode | None,
@@ -64,10 +69,17 @@ def command(
     A report is `results.html` with every number and figure of the paper's sections 5.3 to 5.5, ours
     beside the printed, `tables/` (CSV, LaTeX, docx) and `figures/` (SVG, PDF, PNG).
     """
-    from analysis.battery import analyse_source
+    from analysis.battery import analyse_source, preregister
     from analysis.sources.source import holds_live_sessions, is_study_source
     from analysis.sources.study_folder import mode_of
 
+    if prereg is not None:
+        if out or report or figures:
+            raise click.UsageError("--prereg reads no data: give it without --json or --report.")
+        with _writing(prereg):
+            preregister(source, prereg, alpha)
+        click.echo(f"The planned analysis stands in {prereg}")
+        return 0
     if out is None and report is None:
         raise click.UsageError("Say what to write: --json OUT.json, --report DIR, or both.")
 
@@ -78,7 +90,7 @@ def command(
         if holds_live_sessions(source, mode):
             click.echo(game.unblind(source), err=True, nl=False)
 
-    try:
+    with _writing(out or report):
         result = analyse_source(
             source,
             quiz,
@@ -92,16 +104,23 @@ def command(
         )
         if out is not None:
             out.write_text(result.to_json(), encoding="utf-8")
-    except OSError as error:
-        raise AnaError(
-            f"the results cannot be written ({error.strerror})",
-            place=str(error.filename or out or report),
-            hint="Give a file or folder in a folder that exists and that you may write to.",
-        ) from error
     click.echo(result.table())
     if report is not None:
         click.echo(f"Open {report / 'results.html'}")
     return result.exit_status
+
+
+@contextmanager
+def _writing(place: Path | None) -> Iterator[None]:
+    """Raise AnaError for what cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        raise AnaError(
+            f"the results cannot be written ({error.strerror})",
+            place=str(error.filename or place),
+            hint="Give a file or folder in a folder that exists and that you may write to.",
+        ) from error
 
 
 def _tell(done: int, of: int) -> None:

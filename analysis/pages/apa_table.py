@@ -128,18 +128,18 @@ class Numbered:
         document.add_paragraph().add_run(unmarked(self.table.title)).italic = True
         grid = document.add_table(rows=1 + len(self.table.rows), cols=len(self.table.columns))
         for at, column in enumerate(self.table.columns):
-            _write(grid.rows[0].cells[at].paragraphs[0], column)
+            write_runs(grid.rows[0].cells[at].paragraphs[0], column)
         for line, row in zip(grid.rows[1:], self.table.rows, strict=True):
             for cell, text in zip(line.cells, row, strict=True):
-                _write(cell.paragraphs[0], text)
+                write_runs(cell.paragraphs[0], text)
         _rules(grid)
         if self.table.note:
             paragraph = document.add_paragraph()
             paragraph.add_run("Note. ").italic = True
-            _write(paragraph, self.table.note)
+            write_runs(paragraph, self.table.note)
         packed = io.BytesIO()
         document.save(packed)
-        return _undated(packed.getvalue())
+        return undated(packed.getvalue())
 
 
 def write_tables(tables: Sequence[Numbered], folder: Path) -> list[Path]:
@@ -186,7 +186,8 @@ def _styled(table: ApaTable) -> Any:
     return pd.DataFrame(rows, columns=[html_of(column) for column in table.columns]).style
 
 
-def _write(paragraph: Paragraph, text: str) -> None:
+def write_runs(paragraph: Paragraph, text: str) -> None:
+    """Add a text to a paragraph of a document, its marked parts in italics."""
     for part, italic in marked(text):
         paragraph.add_run(part).italic = italic
 
@@ -211,7 +212,7 @@ def _border(cell: Any, sides: Sequence[str]) -> None:
     cell._tc.get_or_add_tcPr().append(borders)
 
 
-def _undated(document: bytes) -> bytes:
+def undated(document: bytes) -> bytes:
     """The same document with its parts dated alike."""
     out = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(document)) as parts, zipfile.ZipFile(out, "w") as packed:

@@ -22,14 +22,12 @@ from analysis.pages.style import (
     quiet_style,
     save_figures,
 )
-from analysis.sources.absent import Absent, Row, attempt
+from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import (
     ADAPTIVITY,
     ALIGNED,
     COMPLEXITY,
     KNOWLEDGE,
-    MENTAL_STATES,
-    OUTCOMES,
 )
 from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.adaptivity import overall
@@ -49,15 +47,25 @@ OFFSETS = dict(zip(COMPLEXITY, (-0.24, 0.0, 0.24), strict=True))
 def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """Mental states in the static round by knowledge group and static level (Fig. 7).
 
-    Points, means and comparisons are of the same people, those of the ANOVA.
+    Points, means and comparisons are of the same people, those of the ANOVA. Raises Refusal where
+    the study asks for none, or has no groups.
     """
+    study.need_groups()
+    if not study.asked.mental_states:
+        raise Refusal("the study asks for no mental states")
     with quiet_style():
-        figure = Figure(figsize=(TWO_COLUMNS, 6.2))
-        panels = np.ravel(figure.subplots(2, 2, sharey=True))
-        for axes, state in zip(panels, MENTAL_STATES, strict=True):
+        states = study.asked.mental_states
+        down = -(-len(states) // 2)
+        figure = Figure(figsize=(TWO_COLUMNS, 0.6 + 2.8 * down))
+        panels = figure.subplots(down, 2, sharey=True, squeeze=False).ravel()
+        for axes in panels[len(states) :]:
+            axes.set_visible(False)
+        for axes, state in zip(panels, states, strict=False):
+            least, most = study.asked.ranges.get(state, (1, 100))
+            unit = (most - least) / 99
             pair = paired(study, state)
             axes.set_title(state)
-            axes.set_ylim(-3, 140)
+            axes.set_ylim(least - 4 * unit, most + 40 * unit)
             for group, level in ALIGNED:
                 _shade(axes, KNOWLEDGE.index(group) + OFFSETS[level], 0.11)
             for level in COMPLEXITY:
@@ -73,10 +81,10 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
             _level_brackets(axes, alpha, complexity_within_knowledge_by_round(RoundModels.of(pair)))
             axes.set_xticks(range(len(KNOWLEDGE)), [_with_n(pair, group) for group in KNOWLEDGE])
             axes.set_xlim(-0.5, len(KNOWLEDGE) - 0.5)
-            axes.set_yticks(range(0, 101, 25))
+            axes.set_yticks(range(0, 101, 25) if most == 100 else range(least, most + 1))
         for axes in panels[::2]:
-            axes.set_ylabel("answer, 1 to 100 (mean \u00b1 SE)")
-        for axes in panels[2:]:
+            axes.set_ylabel("answer (mean \u00b1 SE)")
+        for axes in panels[-2:]:
             axes.set_xlabel("knowledge group; n at C1, C2, C3")
         figure.legend(
             handles=[
@@ -187,7 +195,7 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
         axes.axvline(0, color=INK, linewidth=0.8)
         labels = []
         reach = BOUND_SDS
-        for at, outcome in enumerate(OUTCOMES):
+        for at, outcome in enumerate(study.outcomes):
             estimate = attempt(overall, study, outcome)
             if isinstance(estimate, Absent):
                 labels.append(outcome)
@@ -201,8 +209,8 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
                 axes.plot(ends, [at, at], color=BLUE, linewidth=width, solid_capstyle="butt")
                 reach = max(reach, *np.abs(ends))
             axes.plot([estimate.estimate], [at], "o", color=BLUE, markeredgecolor="white")
-        axes.set_yticks(range(len(OUTCOMES)), labels)
-        axes.set_ylim(len(OUTCOMES) - 0.5, -0.5)
+        axes.set_yticks(range(len(study.outcomes)), labels)
+        axes.set_ylim(len(study.outcomes) - 0.5, -0.5)
         axes.set_xlim(-1.08 * reach, 1.08 * reach)
         axes.set_xlabel(
             f"adaptive - static, in SD of the static round ({thick} CI thick, {thin} CI thin)"
@@ -268,13 +276,20 @@ def figures_of(study: StudyData, alpha: float = ALPHA) -> list[Captioned]:
     """
     if not study.has("knowledge"):
         return [adaptivity_estimates(study, alpha)]
+    states = study.asked.mental_states
     return [
-        fig7_mental_states(study, alpha),
+        *([fig7_mental_states(study, alpha)] if states else []),
         fig8_performance(study),
-        fig9_adaptivity(study, alpha=alpha),
+        *([fig9_adaptivity(study, first_state(study), alpha)] if states else []),
         adaptivity_estimates(study, alpha),
-        *(cells_figure(study, outcome, alpha) for outcome in OUTCOMES),
+        *(cells_figure(study, outcome, alpha) for outcome in study.outcomes),
     ]
+
+
+def first_state(study: StudyData) -> str:
+    """Engagement, or the first mental state of a study that does not ask for it."""
+    states = study.asked.mental_states
+    return "engagement" if "engagement" in states or not states else states[0]
 
 
 def write_figures(
@@ -372,7 +387,9 @@ def _significant(row: Row, alpha: float) -> str | None:
 
 
 def _level_brackets(axes: Axes, alpha: float, comparisons: list[Row]) -> None:
-    heights = dict.fromkeys(KNOWLEDGE, 101.0)
+    low, high = axes.get_ylim()
+    unit = (high - low) / 143
+    heights = dict.fromkeys(KNOWLEDGE, high - 38 * unit)
     for row in comparisons:
         text = _significant(row, alpha)
         group = str(row["knowledge"])
@@ -380,7 +397,7 @@ def _level_brackets(axes: Axes, alpha: float, comparisons: list[Row]) -> None:
             one, other = str(row["contrast"]).split(" - ")
             at = KNOWLEDGE.index(group)
             bracket(axes, at + OFFSETS[one], at + OFFSETS[other], heights[group], text)
-            heights[group] += 12.0
+            heights[group] += 12 * unit
 
 
 def _group_brackets(

@@ -4,7 +4,7 @@
 # With two rounds a person, everything about adaptivity is a test of adaptive - static and all else
 # a test of the sum of the rounds, each in a linear model with sum contrasts (Type III).
 
-outcomes <- c("victims", "engagement", "confidence", "frustration", "confusion", "preference")
+outcomes <- c(OUTCOMES)
 wide <- read.csv("wide.csv", colClasses = c(participant = "character"))
 wide$knowledge <- factor(wide$knowledge, levels = c("LOW", "MED", "HIGH"))
 wide$complexity <- factor(wide$complexity, levels = c("C1", "C2", "C3"))

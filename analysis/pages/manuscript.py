@@ -1,6 +1,7 @@
 """A results section in the paper's order: every number and figure of its sections 5.3 to 5.5, ours
 beside the printed, with ready-made sentences and tables in APA form."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,12 +10,20 @@ from typing import Any
 import pandas as pd
 
 from analysis.pages.apa_table import ApaTable, Numbered
+from analysis.pages.choices import (
+    other_tests,
+    prior_table,
+    specification_figure,
+    survival,
+    trimmed_table,
+)
 from analysis.pages.figures import (
     adaptivity_estimates,
     cells_figure,
     fig7_mental_states,
     fig8_performance,
     fig9_adaptivity,
+    first_state,
 )
 from analysis.pages.preference import preferred_figure, preferred_table, statements_figure
 from analysis.pages.published import ANOVA_FILE, POSTHOC_FILE, STUDY_FILE, printed
@@ -23,6 +32,7 @@ from analysis.pages.sentences import (
     alpha_sentence,
     anova_sentence,
     bounded_interval,
+    factor,
     gain_sentence,
     interval,
     level_sentence,
@@ -31,13 +41,16 @@ from analysis.pages.sentences import (
 )
 from analysis.pages.style import SIMULATED, Captioned
 from analysis.pages.traces import all_traces, fig10_traces
-from analysis.sources.absent import Absent, attempt
-from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, MENTAL_STATES, OUTCOMES
+from analysis.sources.absent import Absent, Row, attempt
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.apa import DASH, MINUS, bounded, decimal, p_value, share
 from analysis.stats.level import percent
 from analysis.stats.preferred import preferred_rows
+from analysis.stats.robust import PERMUTATIONS
+from analysis.stats.specifications import specification_rows
+from game.tables.exclusions import read_rules
 
 Numbers = Mapping[str, Any]
 
@@ -77,8 +90,13 @@ class Found:
 
     def effect(self, outcome: str, effect: str) -> Numbers | None:
         """One line of an outcome's ANOVA, or None where there is no ANOVA."""
-        rows = self.numbers["outcomes"][outcome]["anova"]
+        rows = self.own(outcome)["anova"]
         return next((row for row in rows or () if row["effect"] == effect), None)
+
+    def own(self, outcome: str) -> Numbers:
+        """The numbers of an outcome; all of them are None where the study does not ask for it."""
+        numbers: Numbers = self.numbers["outcomes"].get(outcome, defaultdict(lambda: None))
+        return numbers
 
 
 Part = tuple[str, list[str], list[ApaTable], list[Captioned]]
@@ -234,8 +252,8 @@ def mental_states(found: Found) -> Part:
     )
     every = [
         (state, row["knowledge"], row["contrast"].replace("-", MINUS), *_contrast_cells(row))
-        for state in MENTAL_STATES
-        for row in found.numbers["outcomes"][state][_WITHIN] or ()
+        for state in found.study.asked.mental_states
+        for row in found.own(state)[_WITHIN] or ()
         if row["adaptivity"] == "static"
     ]
     tables = [
@@ -266,7 +284,7 @@ _GAINS = "posthoc_diff_knowledge_within_complexity"
 def _level_row(
     found: Found, outcome: str, knowledge: str, greater: str, less: str
 ) -> Numbers | None:
-    for row in found.numbers["outcomes"][outcome][_WITHIN] or ():
+    for row in found.own(outcome)[_WITHIN] or ():
         if (row["adaptivity"], row["knowledge"]) == ("static", knowledge):
             if row["contrast"] == f"{greater} - {less}":
                 return dict(row)
@@ -361,8 +379,8 @@ def _eta_printed(line: Mapping[Any, Any]) -> str:
 def _anova_table(found: Found) -> ApaTable:
     holm = found.numbers["holm_across_mental_states"]
     rows = []
-    for outcome in OUTCOMES:
-        for row in (found.numbers["outcomes"][outcome]["anova"] or ())[1:]:
+    for outcome in found.study.outcomes:
+        for row in (found.own(outcome)["anova"] or ())[1:]:
             across = holm[row["effect"]].get(outcome)
             rows.append(
                 (outcome, row["effect"], f"{row['df1']}, {row['df2']}", decimal(row["F"]),
@@ -383,8 +401,8 @@ def _anova_table(found: Found) -> ApaTable:
 
 def _means_table(found: Found) -> ApaTable:
     rows = []
-    for outcome in OUTCOMES:
-        own = found.numbers["outcomes"][outcome]
+    for outcome in found.study.outcomes:
+        own = found.own(outcome)
         if own["cells"] is None or own["emm"] is None:
             continue
         ends = {
@@ -416,7 +434,7 @@ def adaptivity(found: Found) -> Part:
         if row["round"] != "static"
     )
     sentences, rows = [], []
-    gains = found.numbers["outcomes"]["engagement"][_GAINS] or ()
+    gains = found.own("engagement")[_GAINS] or ()
     one, other = line["greater"], line["less"]
     for row in gains:
         level = row["complexity"]
@@ -445,8 +463,8 @@ def adaptivity(found: Found) -> Part:
         "Holm adjusts over the three comparisons at a static level.",
     )  # fmt: skip
     figures = [
-        *_drawn(fig9_adaptivity, found.study, "engagement", found.alpha),
-        *_drawn(cells_figure, found.study, "engagement", found.alpha),
+        *_drawn(fig9_adaptivity, found.study, first_state(found.study), found.alpha),
+        *_drawn(cells_figure, found.study, first_state(found.study), found.alpha),
     ]
     return "Adaptivity (section 5.4, paragraph 4; Fig. 9)", sentences, [table], figures
 
@@ -483,7 +501,7 @@ def preference(found: Found) -> Part:
     """Preference (sections 5.3 and 5.5: no preference was significant)."""
     sentences = [
         anova_sentence("preference", row, found.alpha)
-        for row in (found.numbers["outcomes"]["preference"]["anova"] or ())[1:]
+        for row in (found.own("preference")["anova"] or ())[1:]
     ]
     chosen = attempt(preferred_rows, found.study, found.alpha)
     tables = []
@@ -516,8 +534,8 @@ def robustness(found: Found) -> Part:
     """What the paper does not print: equivalence, other weights, and other samples."""
     numbers, alpha = found.numbers, found.alpha
     sentences, tests, samples = [], [], []
-    for outcome in OUTCOMES:
-        own = numbers["outcomes"][outcome]
+    for outcome in found.study.outcomes:
+        own = found.own(outcome)
         if own["paired"] is not None:
             sentences.append(paired_sentence(outcome, own["paired"], alpha))
         tests += [
@@ -527,7 +545,7 @@ def robustness(found: Found) -> Part:
         ]  # fmt: skip
     sentences += [f"Note: {note}." for note in numbers["notes"] if "count the nine" in note]
     for rule in numbers["sensitivity"]["exclusions"]:
-        for outcome in OUTCOMES:
+        for outcome in found.study.outcomes:
             rows = (rule["results"] or {}).get(outcome) or ()
             samples += [
                 (rule["rule"], str(rule["n_kept"]), outcome, EFFECT_WORDS[row["effect"]],
@@ -552,7 +570,73 @@ def robustness(found: Found) -> Part:
             tuple(samples),
         ),
     ]
-    return "Beyond the paper", sentences, tables, []
+    more, figures = _checks(found)
+    return "Beyond the paper", sentences, [*tables, *more], figures
+
+
+def _checks(found: Found) -> tuple[list[ApaTable], list[Captioned]]:
+    """Tests that assume less, other priors, and the specification curve."""
+    study, alpha = found.study, found.alpha
+    ci = f"{percent(1 - alpha)} CI"
+    tests = attempt(other_tests, study)
+    tested = [] if isinstance(tests, Absent) else tests.reset_index().to_dict("records")
+    priors = prior_table(study)
+    specifications = specification_rows(found.randomised, read_rules())
+    tables = [
+        ApaTable(
+            "other_tests",
+            "Effects of adaptivity by HC3 and by permutation",
+            ("Outcome", "Effect", "*F*", "*F* HC3", "*p* HC3", "*p* permutation"),
+            tuple(
+                (row["outcome"], row["effect"], decimal(row["F"]), decimal(row["F (HC3)"]),
+                 p_value(row["p (HC3)"]), p_value(row["p (permutation)"]))
+                for row in tested
+            ),
+            f"{PERMUTATIONS} permutations of the residuals of the model without the effect.",
+        ),
+        ApaTable(
+            "trimmed",
+            "Adaptive − static by 20% trimmed means",
+            ("Outcome", "*n*", "Trimmed *M*", ci, "*t*", "*df*", "*p*"),
+            tuple(
+                (row["outcome"], str(row["n"]), decimal(row["estimate"]),
+                 interval(row["lower.CL"], row["upper.CL"]), decimal(row["t"]), str(row["df"]),
+                 p_value(row["p"]))
+                for row in map(_numbers, trimmed_table(study, alpha))
+            ),
+            "People count equally.",
+        ),
+        ApaTable(
+            "priors",
+            "Bayes factors of adaptive − static by the scale of the prior",
+            ("Outcome", *(f"*{name[0]}*{name[1:]}" for name in priors.columns)),
+            tuple(
+                (str(outcome), *(DASH if isinstance(value, Absent) else factor(value)
+                                 for value in values))
+                for outcome, values in zip(priors.index, priors.to_numpy(), strict=True)
+            ),
+            "*BF*₁₀, JZS prior; above 1 is evidence for a difference, below 1 for none.",
+        ),
+        ApaTable(
+            "specifications",
+            "The three-way effect on engagement over all specifications",
+            ("Choice", "Option", "Specifications", f"Share with *p* < {bounded(alpha, 2)}",
+             "Greatest *p*"),
+            tuple(
+                (row["choice"], row["option"], str(row["specifications"]),
+                 bounded(row["below alpha"], 2), p_value(row["greatest p"]))
+                for row in map(_numbers, survival(specifications, alpha))
+            ),
+            "Every combination of sample, grouping of knowledge, model, and correction over the "
+            "four mental states.",
+        ),
+    ]  # fmt: skip
+    figure = specification_figure(specifications, simulated=study.simulated, alpha=alpha)
+    return tables, [figure]
+
+
+def _numbers(row: Row) -> Numbers:
+    return row
 
 
 PARTS: tuple[Callable[[Found], Part], ...] = (

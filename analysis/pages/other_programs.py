@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS, OUTCOMES
+from analysis.sources.factors import ADAPTIVITY
 from analysis.sources.frames import StudyData
 
 SCRIPT = Path(__file__).with_name("main_tests.R")
@@ -19,7 +19,8 @@ def wide_csv(study: StudyData) -> str:
     """One row a participant, as those programs want repeated measures: `engagement_static` and
     `engagement_adaptive`. A missing answer is an empty cell."""
     people = study.participants
-    measures = [(name, part) for name in (*OUTCOMES, *LIKERT_ITEMS) for part in ADAPTIVITY]
+    names = dict.fromkeys((*study.outcomes, *study.asked.ranges))
+    measures = [(name, part) for name in names for part in ADAPTIVITY]
     rounds = study.by_round.reindex(people.index)
     rounds = rounds.reindex(columns=pd.MultiIndex.from_tuples(measures))
     known = [column for column in PERSON if study.has(column)]
@@ -36,7 +37,9 @@ def wide_csv(study: StudyData) -> str:
 def write_for_other_programs(study: StudyData, folder: Path) -> None:
     """Write `wide.csv` and `main_tests.R` into a folder that exists."""
     (folder / "wide.csv").write_text(wide_csv(study), encoding="utf-8")
-    (folder / SCRIPT.name).write_bytes(SCRIPT.read_bytes())
+    names = ", ".join(f'"{name}"' for name in study.outcomes)
+    script = SCRIPT.read_text(encoding="utf-8").replace("OUTCOMES", names)
+    (folder / SCRIPT.name).write_text(script, encoding="utf-8")
 
 
 def _cell(value: object) -> str:

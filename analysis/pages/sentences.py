@@ -11,14 +11,6 @@ from analysis.stats.level import percent
 
 Numbers = Mapping[str, Any]
 
-OUTCOME_WORDS = {
-    "victims": "the number of victims rescued",
-    "engagement": "engagement",
-    "confidence": "confidence",
-    "frustration": "frustration",
-    "confusion": "confusion",
-    "preference": "preference",
-}
 EFFECT_WORDS = {
     "knowledge": "main effect of knowledge",
     "complexity": "main effect of static level",
@@ -50,13 +42,17 @@ def p_phrase(p: float | None) -> str:
     return f"*p* {equals(p_value(p))}"
 
 
+def _measure(outcome: str) -> str:
+    return "the number of victims rescued" if outcome == "victims" else outcome
+
+
 def anova_sentence(outcome: str, row: Numbers, alpha: float) -> str:
     """One effect of the mixed ANOVA on one outcome."""
     found = "a significant" if row["p"] < alpha else "no significant"
     wilks = "" if row["wilks"] is None else f"Wilks' Λ = {bounded(row['wilks'])}, "
     ends = bounded_interval(row["pes.lower"], row["pes.upper"])
     return (
-        f"There was {found} {EFFECT_WORDS[row['effect']]} on {OUTCOME_WORDS[outcome]}, {wilks}"
+        f"There was {found} {EFFECT_WORDS[row['effect']]} on {_measure(outcome)}, {wilks}"
         f"*F*({row['df1']}, {row['df2']}) = {decimal(row['F'])}, {p_phrase(row['p'])}, "
         f"partial *η*² {equals(share(row['pes']))}, {percent(1 - 2 * alpha)} CI {ends}."
     )
@@ -117,9 +113,9 @@ def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:
         f"{'equivalent' if tost < alpha else 'not shown to be equivalent'} (two one-sided tests, "
         f"{p_phrase(tost)})"
     )
-    bayes = "" if row["bf10_jzs_r0707"] is None else f"; *BF*₁₀ = {_factor(row['bf10_jzs_r0707'])}"
+    bayes = "" if row["bf10_jzs_r0707"] is None else f"; *BF*₁₀ = {factor(row['bf10_jzs_r0707'])}"
     return (
-        f"Counting people equally, {OUTCOME_WORDS[outcome]} differed by "
+        f"Counting people equally, {_measure(outcome)} differed by "
         f"{decimal(row['mean_diff'])} between adaptive and static instruction, "
         f"{interval(row['lower.CL'], row['upper.CL'], 1 - alpha)}, *t*({row['df']}) = "
         f"{decimal(row['t'])}, {p_phrase(row['p'])}, *d*_z = {decimal(row['dz'])} "
@@ -127,7 +123,8 @@ def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:
     )
 
 
-def _factor(value: float) -> str:
+def factor(value: float) -> str:
+    """A Bayes factor, in powers of ten where it is far from 1."""
     return decimal(value) if 0.01 <= value < 1e4 else f"{value:.2e}"
 
 

@@ -80,6 +80,12 @@ class StudyData:
         groups = knowledge.reindex(self.participants.index).astype(object)
         return replace(self, participants=self.participants.assign(knowledge=groups))
 
+    def without_groups(self) -> "StudyData":
+        """The same study without the knowledge groups that it states."""
+        return replace(
+            self, participants=self.participants.drop(columns="knowledge", errors="ignore")
+        )
+
     def noted(self, *notes: str) -> "StudyData":
         """The same study with more notes."""
         return replace(self, notes=(*self.notes, *notes))

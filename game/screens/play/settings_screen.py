@@ -18,7 +18,7 @@ from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.preferences import Preferences
 
 _THEMES = {None: "as the terminal says", "dark": "dark", "light": "light"}
-_CELLS = {"auto": "large where there is room", "small": "small", "large": "large"}
+_CELLS = {"auto": "large where there is room", "normal": "normal", "large": "large"}
 _BELL = {False: "off", True: "rings at new words"}
 _MOTION = {False: "new words flash", True: "reduced"}
 _CHOICES: dict[str, dict[Any, str]] = {

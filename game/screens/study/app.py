@@ -48,7 +48,7 @@ class StudyApp(Program, inherit_bindings=False):
 
     def __init__(self, study: Study, identity: Identity) -> None:
         screen = study.settings.screen
-        super().__init__(look=screen.look)
+        super().__init__(look=screen.look, cells=screen.cells)
         self.study = study
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)

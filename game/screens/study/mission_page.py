@@ -78,7 +78,6 @@ class StudyMissionScreen(MissionScreen):
         self, frame: Frame, live: StudyMission, reminder: Page, level_key: LevelKeyWords
     ) -> None:
         super().__init__(live, live.task.home / JOURNAL, frame.words.mission)
-        self.view.office.cells = frame.size.cells
         self.view.status.timed = self._is_mission
         rooms = [room.name for room in live.task.building.rooms]
         self.view.bar.lines = lines_needed(live.task.phrases, rooms, frame.size.columns)

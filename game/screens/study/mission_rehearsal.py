@@ -40,7 +40,6 @@ class MissionStill(StudyScreen[bool]):
 
     def __init__(self, frame: Frame, study: Study, seen: Observation, lines: int) -> None:
         self._view = MissionView(study.settings.mission, words=frame.words.mission)
-        self._view.office.cells = frame.size.cells
         self._view.bar.lines = lines
         self._seen = seen
         super().__init__(frame, [self._view])

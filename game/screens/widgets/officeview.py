@@ -5,29 +5,18 @@ from __future__ import annotations
 from typing import ClassVar
 
 from textual import events
-from textual.geometry import Offset
+from textual.geometry import Offset, Size
 
 from game.screens.widgets.camera import Camera
 from game.screens.widgets.canvas import Canvas, Row
-from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES
-from game.screens.widgets.large_office import COLUMNS, ROWS, large_rows
-from game.screens.widgets.office import Line, line_row, window_lines
-from game.screens.widgets.preferences import CellSize
+from game.screens.widgets.glyphs import LARGE, NORMAL, PLAIN, SOLID, STYLES, rows_of
+from game.screens.widgets.office import Line, line_rows, window_lines
+from game.screens.widgets.preferences import Cells
+from game.screens.widgets.program import Program
 from game.world.observation import Observation
 
-ROOMY = (24, 24)
-"""Columns and rows of large cells from which on they are drawn by themselves."""
-LEAST_LARGE = (15, 11)
-"""Fewer show less than the rescuer sees."""
-
-
-def cell_size(wanted: CellSize, columns: int, rows: int) -> tuple[int, int]:
-    """Columns and rows of a cell in a view of this size."""
-    if wanted != "small":
-        least = ROOMY if wanted == "auto" else LEAST_LARGE
-        if columns // COLUMNS >= least[0] and rows // ROWS >= least[1]:
-            return COLUMNS, ROWS
-    return 2, 1
+LARGE_FROM = Size(80, 46)
+"""From this size on, cells are large: 20 x 23 of them are in view, nearly twice the sight."""
 
 
 class OfficeView(Canvas):
@@ -37,18 +26,18 @@ class OfficeView(Canvas):
 
     def __init__(self) -> None:
         super().__init__(id="office")
-        self.cells: CellSize = "small"
-        """How large cells are drawn."""
+        self._wanted: Cells | None = None
+        self._cells = NORMAL
         self._observation: Observation | None = None
         self._camera: Camera | None = None
         self._lines: list[Line] = []
-        self._drawn: dict[Line, tuple[Row, ...]] = {}
+        self._drawn: list[tuple[Row, ...]] = []
 
     def show(self, observation: Observation) -> None:
         """Draw what is seen now."""
         self._observation = observation
-        wide, high = cell_size(self.cells, self.size.width, self.size.height)
-        columns, rows = self.size.width // wide, self.size.height // high
+        cells = self._cells
+        columns, rows = self.size.width // cells.columns, -(-self.size.height // cells.rows)
         if not columns or not rows:
             return
         plan = observation.plan
@@ -59,24 +48,35 @@ class OfficeView(Canvas):
         else:
             camera = before.follow(observation.position, plan_size)
         self._camera = camera
-        known = self._drawn if camera == before else {}
-        self._lines = window_lines(observation, camera)
-        glyphs = PLAIN if self.app.native_ansi_color else SOLID
-        large = high == ROWS
-        self._drawn = {
-            line: known.get(line)
-            or (large_rows(line, camera, glyphs) if large else (line_row(line, camera, glyphs),))
-            for line in self._lines
-        }
-        self.draw([row for line in self._lines for row in self._drawn[line]])
+        known = dict(zip(self._lines, self._drawn, strict=True)) if camera == before else {}
+        self._lines = window_lines(observation, camera, cells)
+        glyphs = rows_of(PLAIN if self.app.native_ansi_color else SOLID, cells)
+        self._drawn = [
+            known.get(line) or line_rows(line, camera, glyphs, cells) for line in self._lines
+        ]
+        self.draw([row for rows in self._drawn for row in rows])
         x, y = observation.position
-        offset = Offset(wide * (x - camera.left), high * (y - camera.top))
+        offset = Offset(cells.columns * (x - camera.left), cells.rows * (y - camera.top))
         self.app.cursor_position = self.region.offset + offset
 
     def notify_style_update(self) -> None:
         super().notify_style_update()
-        self._drawn = {}
+        self._lines, self._drawn = [], []
+
+    def prefer(self, cells: Cells) -> None:
+        """Draw cells of this size from now on, rather than of the program's."""
+        self._wanted = cells
+        if self.is_mounted:
+            self._measure(self.size)
 
     def on_resize(self, event: events.Resize) -> None:
+        self._measure(event.size)
+
+    def _measure(self, size: Size) -> None:
+        usual = self.app.cells if isinstance(self.app, Program) else "auto"
+        wanted = self._wanted or usual
+        roomy = size.width >= LARGE_FROM.width and size.height >= LARGE_FROM.height
+        self._cells = LARGE if wanted == "large" or (wanted == "auto" and roomy) else NORMAL
+        self._camera, self._lines, self._drawn = None, [], []
         if self._observation is not None:
             self.show(self._observation)

@@ -12,7 +12,7 @@ PARAMETER = 'SOURCE = "../data/simulated"'
 
 
 def test_all_questions_are_there_in_order() -> None:
-    assert [path.name[:2] for path in notebooks()] == [f"{number:02}" for number in range(13)]
+    assert [path.name[:2] for path in notebooks()] == [f"{number:02}" for number in range(14)]
 
 
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: path.stem)

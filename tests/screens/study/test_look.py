@@ -12,7 +12,7 @@ from game.study.folder import Identity, new_study, open_study
 
 P01 = Identity("live", "P01")
 LOOK = "look = 2"
-CELLS = 'cells = "small"'
+CELLS = 'cells = "normal"'
 
 
 def app_of(folder: Path, *changes: tuple[str, str]) -> StudyApp:
@@ -36,17 +36,16 @@ def many_colours(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_new_study_has_the_look_of_today(tmp_path: Path) -> None:
     app = app_of(tmp_path / "new")
-    assert (app.look, app.theme, app.frame.size.cells) == (2, "ana-dark", "small")
+    assert (app.look, app.theme, app.cells) == (2, "ana-dark", "normal")
 
 
 def test_a_study_from_before_there_were_looks_keeps_the_first(tmp_path: Path) -> None:
     app = app_of(tmp_path / "old", (LOOK, "# as it was"), (CELLS, "# as they were"))
-    assert (app.look, app.theme, app.frame.size.cells) == (1, "ana-dark-1", "small")
+    assert (app.look, app.theme, app.cells) == (1, "ana-dark-1", "normal")
 
 
 def test_cells_can_be_large(tmp_path: Path) -> None:
-    app = app_of(tmp_path / "large", (CELLS, 'cells = "large"'))
-    assert app.frame.size.cells == "large"
+    assert app_of(tmp_path / "large", (CELLS, 'cells = "large"')).cells == "large"
 
 
 @pytest.mark.parametrize("wrong", [(LOOK, "look = 3"), (CELLS, 'cells = "huge"')])
