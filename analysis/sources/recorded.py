@@ -69,7 +69,9 @@ class Recorded:
                 f"{self.label}: nobody got as far as the allocation; there is nothing to analyse"
             )
         asked = outcomes_of(self.forms)
-        every = self.frame("rounds")
+        every = self.frame("rounds").sort_values("round", kind="stable")
+        repeated = every.duplicated(["participant", "adaptivity"])
+        every = every[~repeated].sort_index()
         wanted = (*MENTAL_STATES, *LIKERT_ITEMS, *asked.ranges, *asked.composites)
         columns = dict.fromkeys((*ROUND, *(name for name in wanted if name in every.columns)))
         person = (*PERSON, *(name for name in PERSON_ASKED if name in people.columns))
@@ -80,7 +82,8 @@ class Recorded:
             simulated=self.simulated,
             asked=asked,
         )
-        return study.noted(*self.notes, *_unfinished(self.frame("participants")))
+        more = ["the first round with each instructor is analysed"] if repeated.any() else []
+        return study.noted(*self.notes, *more, *_unfinished(self.frame("participants")))
 
 
 def recorded(

@@ -75,9 +75,24 @@ def make_study(folder: Path, seed: int | None, blocks: int, language: str) -> No
         click.echo("This is a first translation: let a native speaker read it before you use it.")
 
 
+@study_group.command("design", short_help="Show what is crossed, and what it can find.")
+@_FOLDER
+def print_design(folder: Path) -> None:
+    """Print the design of the study DIR: design cells, how often each comes, the power for the
+    primary outcomes, and which of the paper's tests it supports. Nobody's allocation is shown."""
+    from game.study.folder import open_study
+    from game.study.lab.design_text import design_lines
+
+    study = open_study(folder)
+    for line in design_lines(study.settings, study.forms):
+        click.echo(line)
+
+
 @study_group.command("forms", short_help="Print ready forms to copy from.")
 @click.argument("name", required=False, metavar="[NAME]")
-def print_form(name: str | None) -> None:
+@click.option("--language", default="en", show_default=True, metavar="CODE",
+              help="The language of the form: en or de.")  # fmt: skip
+def print_form(name: str | None, language: str) -> None:
     """List the ready forms, or print one of them.
 
     To ask it in a study: ana study forms NAME >> DIR/forms.toml
@@ -85,7 +100,7 @@ def print_form(name: str | None) -> None:
     from game.study.ready import ready_names, ready_text, summary
 
     if name is not None:
-        click.echo(ready_text(name), nl=False)
+        click.echo(ready_text(name, language), nl=False)
         return
     width = max(map(len, ready_names()))
     for one in ready_names():
@@ -200,7 +215,8 @@ def print_status(folder: Path, *, watch: bool, as_json: bool, unblind: bool) -> 
 def amend_settings(folder: Path, why: str) -> None:
     """Record that something was changed after the first participant, and why.
 
-    That is study.toml, texts.toml, forms.toml or a building. Until then nobody can log in.
+    That is study.toml, texts.toml, forms.toml, instructions.toml or a building. Until then nobody
+    can log in.
     """
     from game.study.folder import amend
 

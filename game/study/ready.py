@@ -8,7 +8,8 @@ from typing import Any
 
 from game.errors import AnaError, choose_from
 from game.forms.form import Forms
-from game.forms.reading import forms_in, paper_text
+from game.forms.reading import FORMS, forms_in, paper_text
+from game.study.languages import ENGLISH, Translation
 
 _FOLDER = "ready_forms"
 PAPER = "paper"
@@ -21,18 +22,22 @@ def ready_names() -> tuple[str, ...]:
     return (PAPER, *sorted(it.name.removesuffix(".toml") for it in found))
 
 
-def ready_text(name: str) -> str:
-    """A ready form as it is written in forms.toml. Raises AnaError for a name that is none."""
+def ready_text(name: str, language: str = ENGLISH) -> str:
+    """A ready form as it is written in forms.toml. Raises AnaError for a name or language that is
+    none."""
     if name not in ready_names():
         raise AnaError(f"there is no ready form '{name}'", hint=choose_from(name, ready_names()))
+    if language != ENGLISH:
+        translation = Translation(language)
+        return translation.texts[FORMS] if name == PAPER else translation.ready_form(name)
     if name == PAPER:
         return paper_text()
     return (resources.files("game.study") / _FOLDER / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def ready_forms(name: str) -> Forms:
-    """A ready form, read. Raises AnaError for a name that is none."""
-    tree: dict[str, Any] = {"version": "1"} | tomllib.loads(ready_text(name))
+def ready_forms(name: str, language: str = ENGLISH) -> Forms:
+    """A ready form, read. Raises AnaError for a name or language that is none."""
+    tree: dict[str, Any] = {"version": "1"} | tomllib.loads(ready_text(name, language))
     return forms_in(tree, name)
 
 

@@ -43,10 +43,12 @@ class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 class ScreenSize(_Section, frozen=True):
     """The fixed size, in terminal cells, of the game view and the memorise map, and the look of the
-    mission; a study made before there were looks has the first."""
+    mission; a study made before there were looks has the first. Large `cells` of the office take
+    4 x 2 of the terminal's, normal ones 2 x 1."""
 
     columns: int = 120
     rows: int = 40
+    cells: Literal["normal", "large"] = "normal"
     look: Literal[1, 2] = 1
 
     def __post_init__(self) -> None:

@@ -59,7 +59,7 @@ class Consent(Page, frozen=True):
 
 
 class InstructorNames(_Part, frozen=True):
-    """Neutral names for the instructors of the first and the second round."""
+    """Neutral names for the instructors of the first and the second round, who take turns."""
 
     first: str
     second: str
@@ -68,8 +68,8 @@ class InstructorNames(_Part, frozen=True):
         told_apart("the names of the instructors", self.first, self.second)
 
     def of(self, round_: int) -> str:
-        """The instructor of round 1 or 2."""
-        return (self.first, self.second)[round_ - 1]
+        """The instructor of a round, from 1."""
+        return (self.first, self.second)[(round_ - 1) % 2]
 
 
 class Lesson(Page, frozen=True):

@@ -29,6 +29,7 @@ class Door(Protocol):
     """Where visitors come in."""
 
     title: str
+    language: str
     words: BrowserWords
     size: ScreenSize
 
@@ -51,6 +52,7 @@ class StudyDoor:
         """Raises AnaError where the study's key cannot be used or `ana` is not installed."""
         self.study = study
         self.title = study.settings.name
+        self.language = study.phrases.language
         self.words = study.texts.browser
         self.size = study.settings.screen
         self._key = study_key(study.folder)
@@ -103,6 +105,7 @@ class PlayDoor:
     """Anyone on this computer plays, each window by itself."""
 
     title = "ana"
+    language = "en"
     size = ScreenSize()
 
     def __init__(self) -> None:

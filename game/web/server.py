@@ -125,6 +125,7 @@ class WebServer:
         }
         page = Template(self._page).substitute(
             title=html.escape(door.title),
+            language=html.escape(door.language),
             told=html.escape(msgspec.json.encode(told).decode()) if notice is None else "",
             heading=html.escape(notice.title) if notice else "",
             body=html.escape(notice.body.strip()) if notice else "",

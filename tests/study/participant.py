@@ -25,6 +25,7 @@ from game.journal.records import (
     Exposed,
     MissionAbandoned,
     MissionStarted,
+    QuestionnaireAnswer,
     Record,
 )
 from game.screens.study.choice import ChoiceScreen
@@ -45,6 +46,7 @@ from tests.terminal import Shown
 
 PATIENCE_S = 60.0
 """How long anything may take on a busy machine."""
+SETTLED_S = 0.3
 KEYS = {
     Action.NORTH: "up",
     Action.EAST: "right",
@@ -54,8 +56,6 @@ KEYS = {
 }
 WALL = re.compile("[▀▄█]")
 """What the walls of a map are drawn with."""
-CLOCK = "for reds"
-"""How the panel shows the time in missions, but not in practice."""
 
 
 @dataclass
@@ -110,6 +110,7 @@ class LiveJournal:
         self._decode = msgspec.json.Decoder(Record).decode
         self.buildings: tuple[str, ...] = ()
         self.missions: list[Walk] = []
+        self.answers = 0
         self.read_on()
 
     def read_on(self) -> None:
@@ -130,6 +131,8 @@ class LiveJournal:
         elif isinstance(record, MissionStarted):
             building = parse_building(record.building_text)
             self.missions.append(Walk(building, building.start))
+        elif isinstance(record, QuestionnaireAnswer):
+            self.answers += 1
         elif self.missions:
             self.missions[-1].note(record)
 
@@ -182,7 +185,7 @@ class TerminalParticipant:
             if leg.opens_kind:
                 self._turn_page(title, self._begun)
             self._enter_mission()
-            assert CLOCK not in self.terminal.text()
+            assert self._clock not in self.terminal.text()
             self.walk()
         self._wait(self._shows(self._form("check").title))
 
@@ -226,7 +229,17 @@ class TerminalParticipant:
         """Read the page about the mission, and begin it."""
         self._turn_page(self.study.texts.mission.title, self._begun)
         self._enter_mission()
-        assert CLOCK in self.terminal.text()
+        assert self._clock in self.terminal.text()
+
+    def fill(self, form: str, key: str) -> None:
+        """Answer every question of a form with the same key, each where it is in view."""
+        asked = self._form(form)
+        self._face(asked.title, FormScreen.DEAF_S)
+        for number in range(1, len(asked.questions) + 1):
+            self._press(self._answered(self.journal.answers + 1), key)
+            if number < len(asked.questions):
+                self._press(self._settled(), "down")
+        self._press(self._shows(asked.title, no=True), "enter")
 
     def walk(self, enough: Callable[[Walk], bool] = lambda _: False) -> None:
         """Rescue one victim after the other until `enough` are rescued or the mission is over."""
@@ -342,6 +355,11 @@ class TerminalParticipant:
 
     # --- missions -------------------------------------------------------------------------------
 
+    @property
+    def _clock(self) -> str:
+        """How the panel shows the red victims' time in missions, but not in practice."""
+        return self.study.texts.words.mission.panel.for_reds.replace("{time}", "").strip()
+
     def _begun(self) -> bool:
         return len(self.journal.missions) > self._entered
 
@@ -367,6 +385,14 @@ class TerminalParticipant:
         return lambda: site.id in walk.rescued or walk.left
 
     # --- patience -------------------------------------------------------------------------------
+
+    def _answered(self, count: int) -> Callable[[], bool]:
+        return lambda: self.journal.answers >= count
+
+    def _settled(self) -> Callable[[], bool]:
+        """Ready after a moment: where a page scrolls, nothing else tells that it has."""
+        until = monotonic() + SETTLED_S
+        return lambda: monotonic() > until
 
     def _shows(self, text: str, *, no: bool = False) -> Callable[[], bool]:
         return lambda: (text in self.terminal.text()) is not no

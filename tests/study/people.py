@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal
 
@@ -36,13 +36,17 @@ def small_study(folder: Path, **changes: str) -> Study:
     """A study whose timed phases take seconds; `changes` replace values in study.toml, or add
     mission rules that it does not list."""
     new_study(folder, seed=7, blocks=1)
-    values = {
+    quick = {
         "memorise_seconds": "[3, 5]",
         "label_seconds": "6",
         "duration_ms": str(MISSION_MS),
-        **changes,
     }
-    path = folder / "study.toml"
+    return with_settings(open_study(folder), quick | changes)
+
+
+def with_settings(study: Study, changes: Mapping[str, str]) -> Study:
+    """The study with values in study.toml replaced, and mission rules added that it lacks."""
+    values, path = dict(changes), study.folder / "study.toml"
     lines = [
         f"{key} = {values.pop(key)}" if (key := line.partition(" = ")[0]) in values else line
         for line in path.read_text().splitlines()
@@ -50,7 +54,7 @@ def small_study(folder: Path, **changes: str) -> Study:
     rules = [f"{key} = {value}" for key, value in values.items()]
     first = 1 + next(n for n, line in enumerate(lines) if line.startswith("[mission]"))
     path.write_text("\n".join([*lines[:first], *rules, *lines[first:]]) + "\n")
-    return open_study(folder)
+    return open_study(study.folder)
 
 
 class Scripted:

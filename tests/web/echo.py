@@ -48,6 +48,7 @@ class EchoDoor:
     """Everybody's ticket is their name."""
 
     title = "Echo <&> study"
+    language = "de"
     size = SIZE
 
     def __init__(self, *options: str) -> None:

@@ -13,6 +13,7 @@ import pytest
 from game.cli import main
 from game.journal.records import Covered, Debriefed, Resumed
 from game.screens.study.pages import PageScreen
+from game.screens.widgets.glyphs import HEADING_ARROWS, HEADING_GLYPHS
 from game.study.folder import Identity, Study
 from game.study.texts import BrowserWords
 from game.web.hosted import Limits
@@ -86,6 +87,23 @@ def test_keys_work_without_a_click_and_after_one_elsewhere(
     tab.press("left", "right", "space")
     tab.wait_for("All keys work")
     tab.close()
+
+
+def test_signs_are_as_wide_as_letters(tab: Tab) -> None:
+    loaded = tab.evaluate("[...document.fonts].filter(it => it.status === 'loaded').length")
+    if loaded < 2:
+        pytest.skip("no font has the signs of the map")
+    signs = "".join(
+        sorted(
+            set("".join((*HEADING_GLYPHS.values(), *HEADING_ARROWS.values()))) | set("←→↑↓✓▀▄█●◖◗")
+        )
+    )
+    widths = tab.evaluate(
+        "(() => { const pen = new OffscreenCanvas(9, 9).getContext('2d');"
+        f" pen.font = '20px \"Roboto Mono\"'; return [...'W{signs}'].map("
+        "it => pen.measureText(it).width) })()"
+    )
+    assert max(widths) <= 1.02 * widths[0], dict(zip(f"W{signs}", widths, strict=True))
 
 
 @pytest.mark.parametrize("size", [(1366, 657), (1920, 1080), (1000, 900)])
@@ -220,7 +238,10 @@ def test_a_line_that_drops_for_five_seconds_finds_the_running_program(
         tab.press("enter")
         time.sleep(5)
         tab.forget()
+        tab.resize(390, 844)
         wire.mend()
+        tab.wait_for_notice(words.too_small.title)
+        tab.resize(1366, 768)
         tab.wait_for_notice("")
         until(lambda: bool(tab.chunks))
         tab.wait_for(MAP)
@@ -246,6 +267,25 @@ def test_keys_pressed_while_the_line_stalls_keep_their_order(
         tab.press("space")
         wire.hold(back=False)
         tab.wait_for("All keys work")
+        tab.close()
+
+
+@pytest.mark.slow
+def test_a_line_that_falls_silent_is_given_up_and_found_again(
+    served: Served, chromium: Chromium, words: BrowserWords
+) -> None:
+    with Wire(served.port) as wire:
+        tab = chromium.tab()
+        tab.open(served.link("P14").replace(served.address, wire.address))
+        tab.wait_for(READY)
+        programs = served.programs("P14")
+        wire.hold(back=True)
+        tab.wait_for_notice(words.interrupted.title)
+        wire.hold(back=False)
+        tab.wait_for_notice("")
+        tab.press("up", "down", "left", "right", "space")
+        tab.wait_for("All keys work")
+        assert served.programs("P14") == programs != []
         tab.close()
 
 

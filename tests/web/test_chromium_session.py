@@ -68,6 +68,9 @@ def test_a_whole_session_by_keys_with_a_reload_in_mid_mission(tmp_path: Path) ->
         code = person.leave()
         tab.wait_for_notice(study.texts.browser.finished.title)
         assert tab.evaluate("document.querySelector('#notice code').textContent") == code
+        tab.resize(390, 844)
+        time.sleep(0.6)
+        assert tab.notice() == study.texts.browser.finished.title, "the code stays in sight"
         assert tab.complaints == []
         assert [it for it in tab.asked if not it.startswith(server.address)] == []
     entries = journal_of(study, P01).entries

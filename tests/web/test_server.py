@@ -47,6 +47,7 @@ async def test_the_page_loads_nothing_from_elsewhere_and_says_so() -> None:
         assert answer.status == 200
         assert told_by(page)["ticket"] == "P01"
         assert "<title>Echo &lt;&amp;&gt; study</title>" in page
+        assert '<html lang="de">' in page
         names = re.findall(r'(?:src|href)="([^"]*)"', page)
         assert names
         for name in names:

@@ -4,7 +4,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from game.world.geometry import Cell
-from game.world.labels import HALF_BLOCKS, SQUARES, LabelLine, MapScale, label_lines
+from game.world.labels import (
+    FILLER,
+    HALF_BLOCKS,
+    SQUARES,
+    LabelLine,
+    MapScale,
+    label_lines,
+    spread,
+)
 
 
 def block(left: int, top: int, width: int, height: int) -> tuple[Cell, ...]:
@@ -54,3 +62,16 @@ def test_every_letter_stands_on_the_room(
         for column in range(line.column, line.column + len(line.text)):
             for below in range(scale.cells):
                 assert (column // scale.columns, line.row * scale.cells + below) in cells
+
+
+@given(st.text("a図ー室é", min_size=1, max_size=5), st.integers(1, 14))
+def test_a_name_in_wide_characters_takes_two_columns_for_each(name: str, columns: int) -> None:
+    lines = label_lines(name, block(2, 2, columns, 4))
+    wide = sum(letter in "図ー室" for letter in name)
+    assert bool(lines) == (len(name) + wide <= columns)
+    for line in lines:
+        assert line.text == spread(name)
+        drawn = dict(line.letters)
+        assert "".join(drawn.values()) == name
+        assert all(drawn[at] == "" for at, it in enumerate(line.text, line.column) if it == FILLER)
+        assert {*drawn} == {*range(line.column, line.column + len(name) + wide)}

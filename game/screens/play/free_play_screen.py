@@ -79,6 +79,7 @@ class FreePlayScreen(MissionScreen):
         """From now on the bar rings and flashes as preferred."""
         self._rings = preferences.bell
         self.view.bar.flashes = not preferences.still
+        self.view.office.prefer(preferences.cells)
 
     def compose(self) -> ComposeResult:
         yield from super().compose()

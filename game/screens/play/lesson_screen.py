@@ -13,6 +13,7 @@ from textual.widget import Widget
 
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.prose import body, heading
+from game.screens.widgets.stillness import DeafAtFirst
 from game.study.texts import Page
 
 
@@ -24,7 +25,7 @@ class LessonOver(Message):
         self.go_on = go_on
 
 
-class LessonScreen(Screen[None]):
+class LessonScreen(DeafAtFirst, Screen[None]):
     """Shows `page` until Enter is pressed where all of it was in view, page by page."""
 
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from time import monotonic
 from typing import ClassVar
 
-from textual import events, work
+from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
@@ -30,12 +29,10 @@ from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.minimap import PIN_STYLES, STYLES
 from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.statuspanel import clock_text
+from game.screens.widgets.stillness import DeafAtFirst
 from game.world.building import Severity
 from game.world.observation import VictimState
 
-STILL_S = 0.5
-"""Keys do nothing until there were none for so long, since the last ones were meant for the
-mission."""
 NARROWEST_CHART = 26
 HIGHEST_CHART = 24
 _LOW_CHART = 5
@@ -282,7 +279,7 @@ class PageNames(ClickCanvas):
         self.draw([tuple(row)])
 
 
-class ResultScreen(Pointed, Screen[None]):
+class ResultScreen(DeafAtFirst, Pointed, Screen[None]):
     """Shows a finished mission on a few pages: totals and charts, the way, people, words."""
 
     class Wanted(Message):
@@ -310,8 +307,6 @@ class ResultScreen(Pointed, Screen[None]):
         super().__init__()
         self.story = story
         self.journal = journal
-        self._heard_s = 0.0
-        self._awake = False
         self._standing = ""
         self._literal: int | None = None
         self._shown = "Result"
@@ -326,7 +321,6 @@ class ResultScreen(Pointed, Screen[None]):
         yield self._keys
 
     def on_mount(self) -> None:
-        self._heard_s = monotonic()
         self._look_around()
 
     def on_resize(self) -> None:
@@ -374,15 +368,6 @@ class ResultScreen(Pointed, Screen[None]):
             ("Enter", "play again"), ("R", "replay"), ("C", "card"), ("← →", "pages"), *scroll,
             ("H", "home"),
         )  # fmt: skip
-
-    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        return self._awake
-
-    def on_key(self, _event: events.Key) -> None:
-        """Every key comes by here before it acts; one that comes too early does nothing."""
-        now_s = monotonic()
-        self._awake = self._awake or now_s - self._heard_s >= STILL_S
-        self._heard_s = now_s
 
     def action_want(self, what: str) -> None:
         self.app.post_message(self.Wanted(what, self))

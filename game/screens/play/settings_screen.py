@@ -18,15 +18,23 @@ from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
 from game.screens.widgets.preferences import Preferences
 
 _THEMES = {None: "as the terminal says", "dark": "dark", "light": "light"}
+_CELLS = {"auto": "large where there is room", "normal": "normal", "large": "large"}
 _BELL = {False: "off", True: "rings at new words"}
 _MOTION = {False: "new words flash", True: "reduced"}
 _CHOICES: dict[str, dict[Any, str]] = {
     "ground": _THEMES,
     "controls": CONTROLS,
+    "cells": _CELLS,
     "bell": _BELL,
     "still": _MOTION,
 }
-_NAMES = {"ground": "Theme", "controls": "Controls", "bell": "Bell", "still": "Motion"}
+_NAMES = {
+    "ground": "Theme",
+    "controls": "Controls",
+    "cells": "Cells",
+    "bell": "Bell",
+    "still": "Motion",
+}
 
 
 def settings_items(preferences: Preferences) -> list[Item]:

@@ -47,7 +47,8 @@ class StudyApp(Program, inherit_bindings=False):
     ]
 
     def __init__(self, study: Study, identity: Identity) -> None:
-        super().__init__(look=study.settings.screen.look)
+        screen = study.settings.screen
+        super().__init__(look=screen.look, cells=screen.cells)
         self.study = study
         self.identity = identity
         self.frame = Frame(study.settings.screen, study.texts.words)

@@ -80,7 +80,8 @@ class ReasonScreen(StudyScreen[str]):
     def on_words_refused(self, message: Words.Refused) -> None:
         words = self.frame.words
         self._keys.set_keys(
-            ("Enter", words.go_on), remark=_counted(words.paste_too_long, message.too_many)
+            (self.frame.keys.enter, words.go_on),
+            remark=_counted(words.paste_too_long, message.too_many),
         )
 
     def action_go_on(self) -> None:

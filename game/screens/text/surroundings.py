@@ -47,10 +47,12 @@ def look(now: Observation, ahead: Heading) -> list[str]:
         ("Behind", ahead.back),
     )  # fmt: skip
     lines = [here, *(f"{name}: {_along(now, way)}." for name, way in ways)]
-    doors = _doorways(now.plan, (cell for cell in now.plan.cells(now.visible)))
+    doors = _doorways(now.plan, now.plan.cells(now.visible))
     if doors:
         where = [place(ahead, now.position, _nearest(now.position, door)) for door in doors]
         lines.append(f"Doors in view: {'; '.join(where)}.")
+    else:
+        lines += [f"No door in view. {line}" for line in _doors_by_steps(now, ahead)[:1]]
     lines += victims_told(now, ahead, now.victims)
     lines += rooms_told(now, ahead, {room.name for room in now.rooms})
     lines.append(in_reach(now))
@@ -117,10 +119,17 @@ def building_map(now: Observation, ahead: Heading) -> list[str]:
             f"The space around you reaches over {wide} cells from west to east and {high} from "
             "north to south."
         )
+    return lines + _doors_by_steps(now, ahead)[:MOST_DOORS]
+
+
+def _doors_by_steps(now: Observation, ahead: Heading) -> list[str]:
+    """The doors of the building, each in a line, the nearest by walking first."""
+    plan = now.plan
     to_here = cost_to_go(plan, now.position)
-    doors = _doorways(plan, (cell for cell in plan.cells(plan.walkable_mask)))
+    doors = _doorways(plan, plan.cells(plan.walkable_mask))
     steps = sorted((min(to_here[plan.index(cell)] for cell in door), door) for door in doors)
-    for away, door in steps[:MOST_DOORS]:
+    lines = []
+    for away, door in steps:
         seen = "seen" if any(now.explored >> plan.index(cell) & 1 for cell in door) else "not seen"
         where = place(ahead, now.position, _nearest(now.position, door))
         lines.append(f"A door, {seen}: {where}, {counted(int(away), 'step')} to walk.")

@@ -1,7 +1,8 @@
 """What every kind of cell looks like: one table for the office, the help and the maps.
 
-A cell of the office is two columns wide. Kinds differ in shape as well as colour; where colours
-are few or none (`PLAIN`), every kind has a shape of its own.
+A cell of the office is two columns wide, or four and two rows high where there is room. Kinds
+differ in shape as well as colour; where colours are few or none (`PLAIN`), every kind has a shape
+of its own.
 """
 
 from __future__ import annotations
@@ -132,6 +133,46 @@ PLAIN = _glyph_set(
     }
 )
 """Sixteen colours, or none: tiles are drawn."""
+
+
+class CellSize(NamedTuple):
+    """How many of the terminal's cells one of the office takes."""
+
+    columns: int
+    rows: int
+
+
+NORMAL, LARGE = CellSize(2, 1), CellSize(4, 2)
+
+_LARGE_FIGURES = {
+    "◖◗": ("▗██▖", "▝██▘"),
+    "()": ("╭──╮", "╰──╯"),
+    "✓ ": (" ✓  ", "    "),
+    "✗ ": (" ✗  ", "    "),
+    HEADING_GLYPHS[Heading.NORTH]: (" ▗▖ ", "▟██▙"),
+    HEADING_GLYPHS[Heading.EAST]: (" ▙▖ ", " ▛▘ "),
+    HEADING_GLYPHS[Heading.SOUTH]: ("▜██▛", " ▝▘ "),
+    HEADING_GLYPHS[Heading.WEST]: (" ▗▟ ", " ▝▜ "),
+    "▐▌": ("▐██▌", "▐██▌"),
+    "[]": ("[  ]", "[  ]"),
+    "· ": ("·   ", "    "),
+    " .": ("   .", "    "),
+}
+"""The two rows of a large cell, by the text of a normal one; any other text is repeated."""
+
+
+def rows_of(glyphs: GlyphSet, size: CellSize) -> tuple[GlyphSet, ...]:
+    """The glyphs of each row of a cell of that size, from the top."""
+    if size == NORMAL:
+        return (glyphs,)
+    return tuple(
+        tuple(
+            glyph._replace(text=_LARGE_FIGURES.get(glyph.text, (2 * glyph.text,) * 2)[row])
+            for glyph in glyphs
+        )
+        for row in range(size.rows)
+    )
+
 
 STYLES = frozenset(glyph.style for glyph in SOLID)
 """The component classes that a widget needs to draw glyphs."""

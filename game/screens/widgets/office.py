@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import NamedTuple
 
 from game.screens.widgets.camera import Camera
 from game.screens.widgets.canvas import Row, Run
-from game.screens.widgets.glyphs import GlyphSet, Kind, player_kind, treated_kind, victim_kind
+from game.screens.widgets.glyphs import (
+    NORMAL,
+    CellSize,
+    GlyphSet,
+    Kind,
+    player_kind,
+    treated_kind,
+    victim_kind,
+)
 from game.world.geometry import Cell, reach
 from game.world.labels import FILLER, spread
 from game.world.observation import Observation, VictimState
@@ -51,7 +59,7 @@ def kinds(observation: Observation) -> bytes:
     return bytes(cells)
 
 
-def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
+def labels(observation: Observation, cells: bytes, size: CellSize = NORMAL) -> dict[int, Label]:
     """The names in view, by row, on lit floor beside their label cells, covering nobody.
 
     A name stands about its label cell, in two lines or one, where all of that is free, so that it
@@ -59,6 +67,7 @@ def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
     nowhere.
     """
     placed: dict[int, Label] = {}
+    across = size.columns
     for room in observation.rooms:
         x, y = room.label
         free = {
@@ -69,19 +78,21 @@ def labels(observation: Observation, cells: bytes) -> dict[int, Label]:
             if start - 1 <= x <= end
         }
         ways = [
-            {row: _nearest(text, x, free[row]) for row, text in enumerate(lines, start=top)}
+            {row: _nearest(text, x, free[row], across) for row, text in enumerate(lines, start=top)}
             for lines in _wrappings(room.name)
             for top in sorted(free, key=lambda row: abs(row - y))
             if all(
-                top + n in free and len(line) <= _columns(free[top + n])
+                top + n in free and len(line) <= _columns(free[top + n], across)
                 for n, line in enumerate(lines)
             )
         ]
         if not ways and free:
-            widest = max(free, key=lambda row: (_columns(free[row]), -abs(row - y)))
-            cut = _cut(spread(room.name), _columns(free[widest]))
-            ways = [{widest: _nearest(cut, x, free[widest])}]
-        at_home = (way for way in ways if all(_is_about(x, label) for label in way.values()))
+            widest = max(free, key=lambda row: (_columns(free[row], across), -abs(row - y)))
+            cut = _cut(spread(room.name), _columns(free[widest], across))
+            ways = [{widest: _nearest(cut, x, free[widest], across)}]
+        at_home = (
+            way for way in ways if all(_is_about(x, label, across) for label in way.values())
+        )
         placed |= next(at_home, ways[0] if ways else {})
     return placed
 
@@ -93,10 +104,10 @@ class Line(NamedTuple):
     label: Label | None
 
 
-def window_lines(observation: Observation, camera: Camera) -> list[Line]:
+def window_lines(observation: Observation, camera: Camera, size: CellSize = NORMAL) -> list[Line]:
     """The lines of the office in the window of `camera`, from its top; empty beside the plan."""
     cells, plan = kinds(observation), observation.plan
-    names = labels(observation, cells)
+    names = labels(observation, cells, size)
     left, right = max(0, camera.left), min(plan.width, camera.left + camera.columns)
     return [
         Line(cells[y * plan.width + left : y * plan.width + right], names.get(y))
@@ -106,13 +117,24 @@ def window_lines(observation: Observation, camera: Camera) -> list[Line]:
     ]
 
 
-def line_row(line: Line, camera: Camera, glyphs: GlyphSet) -> Row:
-    """A line of the window, drawn with `glyphs`."""
+def line_row(line: Line, camera: Camera, glyphs: GlyphSet, size: CellSize = NORMAL) -> Row:
+    """A line of the window, drawn with `glyphs`, with the name on it."""
     runs = list(_runs(line.cells, glyphs))
     left = max(0, camera.left)
     if line.label is not None:
-        runs = _lay_over(runs, line.label, 2 * left)
-    return ((" " * (2 * max(0, -camera.left)), "dark"), *runs) if camera.left < 0 else tuple(runs)
+        runs = _lay_over(runs, line.label, size.columns * left)
+    margin = size.columns * max(0, -camera.left)
+    return ((" " * margin, "dark"), *runs) if camera.left < 0 else tuple(runs)
+
+
+def line_rows(
+    line: Line, camera: Camera, glyphs: Sequence[GlyphSet], size: CellSize
+) -> tuple[Row, ...]:
+    """The rows of the terminal that a line of the window takes, with the `glyphs` of each."""
+    nameless = line._replace(label=None)
+    return tuple(
+        line_row(nameless if row else line, camera, one, size) for row, one in enumerate(glyphs)
+    )
 
 
 def _runs(line: bytes, glyphs: GlyphSet) -> Iterator[Run]:
@@ -148,23 +170,23 @@ def _wrappings(name: str) -> list[list[str]]:
     return sorted([[" ".join(words)], *broken], key=lambda lines: max(map(len, lines)))
 
 
-def _about(x: int, text: str) -> int:
+def _about(x: int, text: str, across: int) -> int:
     """The column at which a text is in the middle of cell column `x`."""
-    return 2 * x + 1 - len(text) // 2
+    return across * x + across // 2 - len(text) // 2
 
 
-def _is_about(x: int, label: Label) -> bool:
-    return label.column == _about(x, label.text)
+def _is_about(x: int, label: Label, across: int) -> bool:
+    return label.column == _about(x, label.text, across)
 
 
-def _nearest(text: str, x: int, stretch: tuple[int, int]) -> Label:
+def _nearest(text: str, x: int, stretch: tuple[int, int], across: int) -> Label:
     """A text in a stretch of cells, as near as it goes to the middle of cell column `x`."""
     start, end = stretch
-    return Label(max(2 * start, min(_about(x, text), 2 * end - len(text))), text)
+    return Label(max(across * start, min(_about(x, text, across), across * end - len(text))), text)
 
 
-def _columns(stretch: tuple[int, int]) -> int:
-    return 2 * (stretch[1] - stretch[0])
+def _columns(stretch: tuple[int, int], across: int) -> int:
+    return across * (stretch[1] - stretch[0])
 
 
 def _rows_beside(plan: Plan, label: Cell) -> Iterator[int]:

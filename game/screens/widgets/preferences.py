@@ -14,6 +14,9 @@ from game.world.settings import Controls
 from game.world.variant import Difficulty, Victims
 
 Ground = Literal["dark", "light"]
+Cells = Literal["auto", "normal", "large"]
+"""Cells of the office: large ones take 4 x 2 of the terminal's, normal ones 2 x 1; `auto` goes by
+the room there is."""
 
 
 class Preferences(msgspec.Struct, frozen=True):
@@ -26,6 +29,7 @@ class Preferences(msgspec.Struct, frozen=True):
     coach: Literal["ana", "knowledge", "static-1", "static-2", "static-3"] = "ana"
     ground: Ground | None = None
     controls: Controls = "compass"
+    cells: Cells = "auto"
     bell: bool = False
     """Whether new words on the bar ring the terminal's bell."""
     still: bool = False

@@ -20,7 +20,7 @@ from game import __version__
 from game.errors import STATUS_DEFECT, AnaError, where
 from game.places import reports_folder
 from game.screens.widgets.keymap import USUAL_KEYS
-from game.screens.widgets.preferences import Ground
+from game.screens.widgets.preferences import Cells, Ground
 from game.screens.widgets.terminal_driver import TerminalDriver
 from game.screens.widgets.theme import LOOK, THEMES, Look, theme_name
 
@@ -31,9 +31,12 @@ class Program(App[None], inherit_bindings=False):
 
     ENABLE_COMMAND_PALETTE: ClassVar[bool] = False
 
-    def __init__(self, wanted: Ground | None = None, look: Look = LOOK) -> None:
+    def __init__(
+        self, wanted: Ground | None = None, look: Look = LOOK, cells: Cells = "auto"
+    ) -> None:
         theme = theme_name(os.environ, wanted, look)
         self.look = look
+        self.cells = cells
         super().__init__(
             driver_class=TerminalDriver, ansi_color=True if theme == "ana-terminal" else None
         )

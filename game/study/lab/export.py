@@ -37,7 +37,7 @@ from game.study.lab.psychds import (
 )
 from game.study.lab.sessions import sessions_of
 from game.study.ledger import Ledger, LedgerEntry, slot_of
-from game.study.study_settings import read_settings
+from game.study.study_settings import StudySettings, read_settings
 from game.tables.rows import TableRow
 from game.tables.session_tables import ROW_TYPES, Tables, combined, row_types, tables_of
 
@@ -92,7 +92,7 @@ def export_study(
         for transcript, lines in sessions:
             files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
     _all_there(folder, modes, without, entries)
-    files |= _described(folder, settings.name, forms, found, _Handling(tuple(without), anonymous))
+    files |= _described(folder, settings, forms, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
     _replace(out, files)
@@ -166,25 +166,28 @@ def _without_answer(line: bytes) -> bytes:
 
 
 def _described(
-    folder: Path, name: str, forms: ReadForms, found: dict[StudyMode, Tables], handling: _Handling
+    folder: Path,
+    settings: StudySettings,
+    forms: ReadForms,
+    found: dict[StudyMode, Tables],
+    handling: _Handling,
 ) -> dict[str, bytes]:
     """All files except the raw journals, by path."""
     types = row_types(forms.forms)
+    summary = _summary(_task(settings), found)
     texts = {
-        f"data/{APART + '/' if table == FREE_TEXT else ''}{file_name(name, mode, table)}": (
-            table_text(row, tables.table(table))
-        )
+        _place(file_name(settings.name, mode, table), table): table_text(row, tables.table(table))
         for mode, tables in found.items()
         for table, row in types.items()
         if not (handling.anonymous and table == FREE_TEXT)
     }
     texts |= dict.fromkeys(IGNORE_FILES, IGNORED)
-    texts["README.md"] = _readme(name, found, handling)
+    texts["README.md"] = _readme(settings.name, summary, handling)
     texts["documentation/codebook.md"] = codebook_page(types)
     texts["documentation/codebook.csv"] = codebook_table(types)
     files = {path: text.encode() for path, text in texts.items()}
     rows: Sequence[type[TableRow]] = tuple(types.values())
-    files[DESCRIPTION] = description(name, _summary(found) + handling.told(), _notes(folder), rows)
+    files[DESCRIPTION] = description(settings.name, summary + handling.told(), _notes(folder), rows)
     for material in (SETTINGS, TEXTS, forms.name):
         files[f"materials/{material}"] = (folder / material).read_bytes()
     if (folder / INSTRUCTIONS).exists():
@@ -210,24 +213,40 @@ def _versions(folder: Path) -> dict[str, bytes]:
         ) from error
 
 
-def _summary(found: dict[StudyMode, Tables]) -> str:
-    counts = ", ".join(f"{len(tables.participants)} {mode}" for mode, tables in found.items())
-    warning = " The simulated sessions were played by a program." if "simulated" in found else ""
+def _place(name: str, table: str) -> str:
+    return f"data/{APART}/{name}" if table == FREE_TEXT else f"data/{name}"
+
+
+def _task(settings: StudySettings) -> str:
+    """What participants did, in a sentence or two."""
+    if settings.instructors is None and settings.rounds == 2:
+        return (
+            "Participants memorised the maps of two buildings, labelled their rooms, and played a "
+            "rescue mission in each: one with a static and one with an adaptive instructor."
+        )
+    first, second = settings.instructors or ("static", settings.coach)
+    done = {"memorise": "memorised a map", "label": "labelled its rooms", "mission": "played"}
+    did = ", ".join(done[phase] for phase in settings.round_phases)
     return (
-        "Participants memorised the maps of two buildings, labelled their rooms, and played a "
-        "rescue mission in each: one with a static and one with an adaptive instructor. "
-        f"Sessions: {counts}.{warning}"
+        f"Rounds: {settings.rounds}. In each, participants {did} a rescue mission, led by one of "
+        f"two instructors: {first} (`static` in the tables) or {second} (`adaptive`)."
     )
 
 
-def _readme(name: str, found: dict[StudyMode, Tables], handling: _Handling) -> str:
+def _summary(task: str, found: dict[StudyMode, Tables]) -> str:
+    counts = ", ".join(f"{len(tables.participants)} {mode}" for mode, tables in found.items())
+    warning = " The simulated sessions were played by a program." if "simulated" in found else ""
+    return f"{task} Sessions: {counts}.{warning}"
+
+
+def _readme(name: str, summary: str, handling: _Handling) -> str:
     tables = "\n".join(
         f"- `{table}`: {(row.__doc__ or '').split('.')[0].strip()}."
         for table, row in ROW_TYPES.items()
     )
     return f"""# {name}
 
-{_summary(found)}{handling.told()} A Psych-DS dataset, written by ana {__version__}.
+{summary}{handling.told()} A Psych-DS dataset, written by ana {__version__}.
 
 - `data/`: tidy tables, one file per table and mode (`session-live`, `-pilot`, `-simulated`).
 - `data/{APART}/`: what participants wrote in their own words, which may identify them. Check it,

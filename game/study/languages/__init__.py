@@ -54,6 +54,10 @@ class Translation:
             if name != ROOMS
         }
 
+    def ready_form(self, name: str) -> str:
+        """A ready form, as it is written in forms.toml."""
+        return (self._folder / "ready_forms" / f"{name}.toml").read_text(encoding="utf-8")
+
     def buildings(self, names: Iterable[str]) -> dict[str, str]:
         """The files of shipped buildings, with their rooms renamed."""
         return {f"{name}.txt": self._renamed(load_building(name).text) for name in names}

@@ -5,6 +5,7 @@
 const LEAST_LETTERS = 9, MOST_LETTERS = 60; // px
 const ASK_MS = 3000, SILENT_MS = 9000, AGAIN_MS = 1000, LOST_MS = 60000;
 const PIECE = 1000; // of a long paste, in characters
+const SIGNS = "\u25e2\u2190\u2713";
 const ENDED = 4000, ELSEWHERE = 4001, FULL = 4002, IDLE = 4003;
 
 if (document.body.dataset.told) begin(JSON.parse(document.body.dataset.told));
@@ -17,7 +18,7 @@ function begin(told) {
   const RealWebSocket = window.WebSocket;
   let socket = null; // the real one
   let line = null; // what the terminal speaks to
-  let heard = 0; // when the server last said anything
+  let asked = 0; // since when the server owes an answer; 0 while it does not
   let broken = 0; // since when there is no connection; 0 while there is one
   let running = false; // leaving would interrupt the program
   let ending = null;
@@ -73,19 +74,16 @@ function begin(told) {
     address.search = new URLSearchParams({ ticket: told.ticket, tab: tab() });
     const mine = (socket = new RealWebSocket(address));
     mine.binaryType = "arraybuffer";
-    heard = performance.now();
-    mine.onopen = () => {
-      if (mine !== socket) return;
-      heard = performance.now();
-    };
+    asked = performance.now();
+    mine.onopen = () => { if (mine === socket) asked = 0; };
     mine.onmessage = (event) => {
       if (mine !== socket) return;
-      heard = performance.now();
+      asked = 0;
       if (event.data instanceof ArrayBuffer) {
         running = true;
         if (broken) {
           broken = 0;
-          small ? say("c") : untell();
+          small ? cover() : untell();
         }
         line.dispatchEvent(new MessageEvent("message", { data: event.data }));
       } else if (event.data !== "!") {
@@ -96,7 +94,9 @@ function begin(told) {
   }
 
   function say(message) {
-    if (socket?.readyState === RealWebSocket.OPEN) socket.send(message);
+    const open = socket?.readyState === RealWebSocket.OPEN;
+    if (open) socket.send(message);
+    return open;
   }
 
   function closed(code) {
@@ -129,12 +129,12 @@ function begin(told) {
 
   setInterval(() => {
     if (!socket) return;
-    if (performance.now() - heard > SILENT_MS) {
+    if (asked && performance.now() - asked > SILENT_MS) {
       const dead = socket;
       socket = null;
       dead.close();
       closed(0);
-    } else say("?");
+    } else if (say("?")) asked = asked || performance.now();
   }, ASK_MS);
 
   window.WebSocket = class Line extends EventTarget {
@@ -173,12 +173,16 @@ function begin(told) {
     return 0;
   }
 
+  function cover() {
+    say("c");
+    tell(words.too_small);
+  }
+
   function fit() {
     const size = largest();
     small = size === 0;
     if (small) {
-      say("c");
-      tell(words.too_small);
+      if (line === null || socket) cover(); // otherwise the notice that is there matters more
       return;
     }
     if (size !== letters) {
@@ -208,7 +212,7 @@ function begin(told) {
   addEventListener("beforeunload", (event) => { if (running) event.preventDefault(); });
 
   async function open() {
-    await document.fonts.load('16px "Roboto Mono"');
+    await Promise.allSettled(["W", SIGNS].map((it) => document.fonts.load('16px "Roboto Mono"', it)));
     await new Promise((done) => {
       const script = document.createElement("script");
       script.src = "static/textual.js";

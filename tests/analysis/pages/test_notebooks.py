@@ -1,4 +1,4 @@
-"""Every notebook runs to its end, says that people are simulated, and is stored with its outputs."""
+"""Every notebook runs to its end, says that people are simulated, and is stored with outputs."""
 
 from pathlib import Path
 

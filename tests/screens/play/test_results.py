@@ -29,9 +29,10 @@ from game.screens.play.past_missions import (
     past_missions,
     standing,
 )
-from game.screens.play.result import STILL_S, ResultScreen, result_pages
+from game.screens.play.result import ResultScreen, result_pages
 from game.screens.play.result_card import card_svg, card_text
 from game.screens.play.start_screen import StartScreen
+from game.screens.widgets import stillness
 from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Notice
 from game.session.playing import end_free_play, start_free_play, start_in_memory
@@ -157,7 +158,10 @@ def test_past_missions_are_read_from_the_journals(tmp_path: Path, ward: Building
     }
 
 
-async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> None:
+async def test_the_page_is_deaf_until_the_keys_were_still(
+    open_app: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stillness, "STILL_S", 60.0)
     async with open_app(duration_ms=1_000) as (app, pilot):
         await until(pilot, MissionScreen)
         result: ResultScreen = await until(pilot, ResultScreen)
@@ -165,7 +169,7 @@ async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> Non
             await press(pilot, "enter", "f9", "right")
             assert app.screen is result
             assert result._shown == "Result", "keys go on and on"
-        await asyncio.sleep(STILL_S + 0.1)
+        monkeypatch.setattr(stillness, "STILL_S", 0.0)
         await press(pilot, "right")
         assert result._shown == "People"
         await press(pilot, "left", "enter")
@@ -175,7 +179,7 @@ async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> Non
 async def test_the_card_is_copied_and_written(open_app: Open) -> None:
     async with open_app(duration_ms=1_000) as (app, pilot):
         result = await until(pilot, ResultScreen)
-        await asyncio.sleep(STILL_S + 0.1)
+        await asyncio.sleep(stillness.STILL_S + 0.1)
         await press(pilot, "c")
         notice = await until(pilot, Notice)
         assert "0 of 3 rescued" in str(notice.query("Static").last().render())

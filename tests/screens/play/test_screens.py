@@ -9,10 +9,12 @@ from typing import Any
 
 import pytest
 from textual.containers import VerticalScroll
+from textual.pilot import Pilot
 from textual.screen import Screen
 
 from game.coach.spec import parse_coach
 from game.errors import AnaError
+from game.journal.clock import MissionClock
 from game.journal.reader import read_journal
 from game.journal.records import Paused, SessionEnded, Unpaused
 from game.screens.play.app import AnaApp, PlayOptions, run_home, run_play
@@ -21,12 +23,13 @@ from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import JournalsScreen
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.replay_screen import ReplayScreen
-from game.screens.play.result import STILL_S, ResultScreen
+from game.screens.play.result import ResultScreen
 from game.screens.play.start_screen import StartScreen
 from game.screens.play.watch_screen import WatchScreen
-from game.screens.widgets.canvas import Canvas, width
+from game.screens.widgets.canvas import Canvas, Row, width
 from game.screens.widgets.dialogs import Help, Notice, Pause, Question, TooSmall
 from game.screens.widgets.keyline import KeyLine
+from game.screens.widgets.stillness import STILL_S
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
@@ -306,9 +309,10 @@ def test_without_a_terminal_it_says_so(ward: Building, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40), (200, 60)])
 async def test_the_screen_tells_nothing_but_the_observation(
-    open_app: Open, ward: Building, size: tuple[int, int]
+    open_app: Open, ward: Building, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Victims and names out of sight change no character of the first picture."""
+    monkeypatch.setattr(MissionClock, "now_ms", lambda _: 0)
     other = parse_building(
         ward.text.replace("*.#\n#", "o.#\n#").replace("Test Lab", "Archive"), "other"
     )
@@ -316,6 +320,30 @@ async def test_the_screen_tells_nothing_but_the_observation(
     for building in (ward, other):
         async with open_app(size=size, building=building) as (_, pilot):
             mission = await until(pilot, MissionScreen)
-            view = mission.view
-            pictures.append([view.office.rows, view.minimap.rows, view.status.rows])
+            pictures.append(await settled(pilot, mission))
     assert pictures[0] == pictures[1]
+
+
+async def settled(pilot: Pilot[None], mission: MissionScreen) -> list[list[Row]]:
+    """The first picture, once the space has been divided and it changes no more."""
+    view, before = mission.view, None
+    while True:
+        await pilot.pause()
+        shown = [view.office.rows, view.minimap.rows, view.status.rows]
+        if shown == before and all(shown):
+            return shown
+        before = shown
+
+
+@pytest.mark.parametrize(
+    ("size", "large"), [((80, 24), False), ((120, 40), False), ((160, 50), True), ((200, 60), True)]
+)
+async def test_cells_are_large_where_there_is_room(
+    open_app: Open, size: tuple[int, int], large: bool
+) -> None:
+    async with open_app(size=size) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        await settled(pilot, mission)
+        office = mission.view.office
+        player = [run[0] for row in office.rows for run in row if run[1] == "player"]
+        assert (len(player), {len(text) for text in player}) == ((2, {4}) if large else (1, {2}))

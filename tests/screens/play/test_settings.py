@@ -29,7 +29,9 @@ async def test_settings_hold_at_once_and_from_one_time_to_the_next(
         settings = await until(pilot, SettingsScreen)
         dialog = settings.query_one(".dialog").region
         assert dialog.x > 5 and dialog.y > 2, "in the middle of the window"
-        await press(pilot, "right", "right", "down", "right", "down", "right", "down", "right")
+        await press(
+            pilot, "right", "right", "down", "right", "down", "down", "right", "down", "right"
+        )
         assert app.theme == "ana-light"
         await press(pilot, "escape")
         assert app.screen is home and "arrows turn" in shown(home)

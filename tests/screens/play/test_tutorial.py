@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 
 from textual.pilot import Pilot
@@ -16,6 +17,7 @@ from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import journal_text
 from game.screens.play.lesson_screen import LessonScreen
 from game.screens.play.tutorial import DONE, LegScreen
+from game.screens.widgets.stillness import STILL_S
 from game.session.verification import verify
 from game.world import load_building
 from game.world.events import Action
@@ -54,6 +56,7 @@ async def test_the_tutorial_goes_through_three_ways_of_telling(
                 await walk(pilot, screen)
             elif isinstance(screen, LessonScreen):
                 titles.append(screen._page.title)
+                await asyncio.sleep(STILL_S + 0.05)
                 await press(pilot, "enter")
             await pilot.pause()
     assert legs == 6 and list(dict.fromkeys(titles))[-1] == DONE.title
@@ -75,12 +78,16 @@ async def test_the_tutorial_can_be_left_at_any_time(open_app: Open, tmp_path: Pa
         app.on_home_screen_wanted(HomeScreen.Wanted("tutorial", home))
         lesson = await until(pilot, LessonScreen)
         assert "Walking" in painted(lesson) and "clock keeps" not in painted(lesson)
+        await press(pilot, "enter")
+        assert app.screen is lesson, "keys from before do nothing"
+        await asyncio.sleep(STILL_S + 0.05)
         await press(pilot, "q")
         await until(pilot, HomeScreen)
         assert not list(tmp_path.glob("*/journal.jsonl"))
         app.teach()
         while not isinstance(app.screen, LegScreen):
             await until(pilot, LessonScreen)
+            await asyncio.sleep(STILL_S + 0.05)
             await press(pilot, "enter")
             await pilot.pause()
         await press(pilot, "q", "y")

@@ -7,6 +7,7 @@ import shutil
 import tomllib
 from pathlib import Path
 
+import msgspec
 import pytest
 from rich.cells import cell_len
 
@@ -22,6 +23,7 @@ from game.session.verification import verify
 from game.study.folder import Study, new_study, open_study
 from game.study.lab.readiness import shortfalls
 from game.study.languages import Translation, languages
+from game.study.ready import ready_forms, ready_names, ready_text
 from game.world import load_building
 
 ROOT = Path(__file__).parents[3]
@@ -111,6 +113,27 @@ def test_a_german_study_is_simulated_verified_and_says_the_english_tuples(tmp_pa
     ]
     assert first == [list(it.tuples) for it in told["de"][:3]]
     assert not {it.text for it in told["en"]} & {it.text for it in told["de"]}
+
+
+def without_words(name: str, language: str) -> object:
+    """A ready form without what is written in a language."""
+
+    def bare(tree: object) -> object:
+        if isinstance(tree, list | tuple):
+            return [bare(it) for it in tree]
+        if isinstance(tree, dict):
+            words = ("title", "body", "text", "low", "high", "unit", "other", "source", "answers")
+            kept = {key: bare(it) for key, it in tree.items() if key not in words}
+            return kept | {f"{key} of": len(tree[key]) for key in ("answers",) if key in tree}
+        return tree
+
+    return bare(msgspec.to_builtins(ready_forms(name, language)))
+
+
+@pytest.mark.parametrize("name", ready_names())
+def test_german_forms_ask_the_same_items(name: str) -> None:
+    assert without_words(name, "de") == without_words(name, "en")
+    assert ready_text(name, "de") != ready_text(name)
 
 
 def keys(tree: object) -> set[str]:

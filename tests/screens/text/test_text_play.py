@@ -6,6 +6,7 @@ import io
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,7 @@ from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted
 from game.world.settings import MissionSettings
+from tests.screens.text.listener import Listener
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -72,6 +74,16 @@ def test_typing_what_the_bar_says_plays_the_whole_mission(
     assert f"The mission is over. {rescued} of {len(building.victims)} rescued" in told
     assert "do not understand" not in told
     assert verify(journal_in(tmp_path)).reproduced
+
+
+def test_what_is_told_is_enough_to_follow_doors_and_hallways(tmp_path: Path) -> None:
+    """Played by the lines of text alone: doors and intersections are counted as they are told."""
+    out = io.StringIO()
+    play(load_building("harbour"), tmp_path, islice(Listener(out).lines(), 3_000), out, level=2)
+    mission = mission_of(tmp_path)
+    assert mission.end == "ended" and mission.missteps <= 2
+    rescued = sum(fate == "rescued" for fate, _ in mission.fates.values())
+    assert rescued >= 15, out.getvalue()[-2000:]
 
 
 def test_what_is_typed_is_a_mission_again(tmp_path: Path) -> None:

@@ -9,8 +9,15 @@ from hypothesis import strategies as st
 
 from game.screens.widgets.camera import MARGIN, Camera
 from game.screens.widgets.canvas import plain, width
-from game.screens.widgets.glyphs import PLAIN, SOLID, Kind, player_kind
-from game.screens.widgets.office import in_reach, kinds, labels, line_row, window_lines
+from game.screens.widgets.glyphs import LARGE, PLAIN, SOLID, Glyph, Kind, player_kind, rows_of
+from game.screens.widgets.office import (
+    in_reach,
+    kinds,
+    labels,
+    line_row,
+    line_rows,
+    window_lines,
+)
 from game.world import load_building
 from game.world.building import Building, Room
 from game.world.events import Action
@@ -117,6 +124,25 @@ def steps_beside(room: Room) -> list[Cell]:
     return [cell for cell in room.cells if abs(cell[0] - x) <= 1 and 2 <= abs(cell[1] - y) <= 4]
 
 
+@settings(max_examples=25)
+@given(walks, st.sampled_from(["図書室", "第2 会議室", "コンピューター室とても長い名前"]))
+def test_names_in_wide_characters_shift_nothing(actions: list[Action], name: str) -> None:
+    renamed = replace(
+        HARBOUR,
+        rooms=tuple(
+            replace(room, name=f"{name}{number}") for number, room in enumerate(HARBOUR.rooms)
+        ),
+    )
+    observation = walked(renamed, actions)
+    size = observation.plan.width, observation.plan.height
+    camera = Camera.centred(40, 20, observation.position, size)
+    shown = [line_row(line, camera, PLAIN) for line in window_lines(observation, camera)]
+    nameless = replace(observation, rooms=())
+    without = [line_row(line, camera, PLAIN) for line in window_lines(nameless, camera)]
+    assert [width(row) for row in shown] == [width(row) for row in without]
+    assert "\0" not in "".join(plain(shown))
+
+
 def test_a_name_keeps_its_place_while_it_fits_there() -> None:
     room = HARBOUR.room("Test Lab")
     places = set()
@@ -213,3 +239,32 @@ def test_a_plan_smaller_than_the_window_is_centred(ward: Building) -> None:
     assert all(width(line_row(line, camera, SOLID)) in (20, 62) for line in lines), (
         "margin, or margin and plan"
     )
+
+
+@settings(max_examples=25)
+@given(walks, st.sampled_from([PLAIN, SOLID]))
+def test_large_cells_show_the_same_as_normal_ones(
+    actions: list[Action], glyphs: tuple[Glyph, ...]
+) -> None:
+    observation = walked(HARBOUR, actions)
+    size = HARBOUR.plan.width, HARBOUR.plan.height
+    camera = Camera.centred(25, 20, observation.position, size)
+    both = rows_of(glyphs, LARGE)
+    normal = window_lines(observation, camera)
+    large = window_lines(observation, camera, LARGE)
+    assert [line.cells for line in large] == [line.cells for line in normal]
+    for line in large:
+        rows = line_rows(line, camera, both, LARGE)
+        assert len(rows) == 2
+        assert {width(row) for row in rows} == {4 * len(line.cells)}
+        if line.label is not None:
+            assert line.label.text in plain(rows)[0]
+            assert line.label.text not in plain(rows)[1]
+
+
+def test_in_large_cells_every_kind_has_a_shape_of_its_own() -> None:
+    for glyphs in (PLAIN, SOLID):
+        upper, lower = rows_of(glyphs, LARGE)
+        drawn = {kind: (upper[kind], lower[kind]) for kind in Kind if glyphs[kind].text.strip()}
+        assert all(len(one.text) == len(other.text) == 4 for one, other in drawn.values())
+        assert len(set(drawn.values())) == len({glyphs[kind] for kind in drawn})
