@@ -112,7 +112,7 @@ def test_a_sentence_of_wide_characters_begins_on_a_row_of_its_own() -> None:
 
 
 def test_german_keeps_its_blanks() -> None:
-    told = "Gehen Sie durch die vierte Tür rechts. Gehen Sie durch die fünfte Tür links. Ende."
+    told = "Gehen Sie durch die vierte Tür rechts. Gehen Sie durch die fünfte Tür links."
     assert " ".join(sentences_in_rows(told, 76)) == told
 
 
