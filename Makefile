@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 PROJECT := pyproject.toml game/__init__.py
 
 .DEFAULT_GOAL := help
-.PHONY: help play test slow lab reproduce coaches reference bench lint types contract pins schema
+.PHONY: help play test slow lab notebooks reproduce coaches reference bench lint types contract pins schema
 
 help:  ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -24,14 +24,20 @@ slow: $(VENV)/all.stamp  ## run the exhaustive tests
 lab: $(VENV)/all.stamp  ## open the notebooks on the shipped simulated study
 	@$(if $(ANA_SOURCE),ANA_SOURCE=$(abspath $(ANA_SOURCE)) )$(BIN)/jupyter-lab --notebook-dir notebooks
 
+notebooks: $(VENV)/all.stamp  ## run the notebooks and store them with what they show
+	@$(BIN)/python -m analysis.execute
+
 reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure and page from it
 	@$(BIN)/python -m analysis.reproduce out
 
 COMPARED := static:1,static:2,static:3,ana,ana:calibrated,ana:belief,knowledge,knowledge+quiz,truth
+SWITCH := knowledge:switch_gain_ms
+SWITCHING := static:1,static:2,static:3,ana,$(SWITCH)=0,$(SWITCH)=500,knowledge,$(SWITCH)=2000,$(SWITCH)=4000,$(SWITCH)=8000,$(SWITCH)=16000
 
 coaches: $(VENV)/all.stamp  ## compare the coaches on simulated people (twenty minutes on two cores)
 	@mkdir -p out
 	@$(BIN)/ana compare --coaches "$(COMPARED)" --people 100 --json out/coaches.json --figures out/coaches
+	@$(BIN)/ana compare --coaches "$(SWITCHING)" --people 100 --worlds default --json out/switching.json
 
 bench: $(VENV)/all.stamp  ## measure speed beside the floors, in one run
 	@$(BIN)/python -m tests.bench
@@ -50,7 +56,7 @@ contract: $(VENV)/all.stamp  ## check which room may import which
 reference:  ## compute the reference numbers of the statistics again with R, and compare
 	@command -v Rscript >/dev/null || { \
 	  echo "make reference needs R and its packages, and there is no 'Rscript' here." >&2; \
-	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,jsonlite}" >&2; exit 2; }
+	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,ordinal,jsonlite}" >&2; exit 2; }
 	@cd tests/reference && WRITE=$(WRITE) Rscript reference.R
 
 schema: $(VENV)/all.stamp  ## write the schema of journals from the types

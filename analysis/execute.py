@@ -1,4 +1,7 @@
-"""Runs notebooks from top to bottom, all in one kernel that forgets in between."""
+"""Runs notebooks from top to bottom, all in one kernel that forgets in between.
+
+`make notebooks` runs the shipped ones and stores them with what they show.
+"""
 
 import os
 from collections.abc import Iterator, Sequence
@@ -35,7 +38,7 @@ def executed(paths: Sequence[Path], source: Path | None = None) -> Iterator[tupl
     Raises nbclient.exceptions.CellExecutionError, which shows the cell, where one fails.
     """
     manager = KernelManager()
-    runner = NotebookClient(_forgetting(), km=manager, timeout=TIMEOUT_S)
+    runner = NotebookClient(_forgetting(), km=manager, timeout=TIMEOUT_S, record_timing=False)
     try:
         with _source(source):
             runner.execute(cwd=str(NOTEBOOKS))
@@ -78,6 +81,18 @@ def html(notebook: Notebook) -> str:
     return str(page)
 
 
+def main() -> None:
+    """Run every shipped notebook on its own parameter and store its outputs in place."""
+    for path, notebook in executed(notebooks()):
+        for at, cell in enumerate(one for one in notebook.cells if one.cell_type == "code"):
+            cell.execution_count = at + 1
+            for output in cell.outputs:
+                if "execution_count" in output:
+                    output.execution_count = at + 1
+        notebook.metadata.language_info = {"name": "python"}
+        write(notebook, path)
+
+
 def _forgetting() -> Notebook:
     return _nbformat.v4.new_notebook(cells=[_nbformat.v4.new_code_cell(FORGET)])
 
@@ -94,3 +109,7 @@ def _source(source: Path | None) -> Iterator[None]:
         os.environ.pop(VARIABLE, None)
         if before is not None:
             os.environ[VARIABLE] = before
+
+
+if __name__ == "__main__":
+    main()

@@ -14,6 +14,7 @@ MISSING = {
     "OpenSSH's server or client is not installed": "an OpenSSH server",
     "Chromium is not installed": "Chromium",
     "no font has the signs of the map": "the font DejaVu Sans Mono",
+    "R is not installed": "R",
     "the extra `cluster` is not installed": "the extra cluster",
 }
 """The reasons for which a test may be skipped, and what is missing then."""

@@ -48,6 +48,7 @@ _LATEX = {
     "η": r"$\eta$",
     "α": r"$\alpha$",
     "Λ": r"$\Lambda$",
+    "χ": r"$\chi$",
     "×": r"$\times$",
 }
 #: The date of every part of a document, so that the same table gives the same bytes.

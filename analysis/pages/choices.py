@@ -11,6 +11,7 @@ from analysis.sources.absent import Absent, Row, attempt
 from analysis.sources.frames import StudyData, paired
 from analysis.stats.apa import bounded
 from analysis.stats.assumptions import assumption_rows, hc3_rows
+from analysis.stats.latent import latent_row
 from analysis.stats.level import ALPHA
 from analysis.stats.order_effects import order_rows
 from analysis.stats.robust import permutation_rows, prior_rows, trimmed_row
@@ -136,6 +137,13 @@ def trimmed_table(study: StudyData, alpha: float = ALPHA) -> list[Row]:
     """adaptive - static by 20% trimmed means, a row an outcome that allows it."""
     found = {outcome: attempt(trimmed_row, study, outcome, alpha) for outcome in study.outcomes}
     return [{"outcome": name, **row} for name, row in found.items() if not isinstance(row, Absent)]
+
+
+def latent_table(study: StudyData) -> list[Row]:
+    """The three-way effect on the items as ordered answers, and on rescues out of twenty."""
+    measures = [*(item for items in study.asked.composites.values() for item in items), "victims"]
+    found = {name: attempt(latent_row, study, name) for name in measures}
+    return [{"of": name, **row} for name, row in found.items() if not isinstance(row, Absent)]
 
 
 def prior_table(study: StudyData) -> pd.DataFrame:

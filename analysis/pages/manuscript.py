@@ -11,6 +11,7 @@ import pandas as pd
 
 from analysis.pages.apa_table import ApaTable, Numbered
 from analysis.pages.choices import (
+    latent_table,
     other_tests,
     prior_table,
     specification_figure,
@@ -607,6 +608,20 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Captioned]]:
             "People count equally.",
         ),
         ApaTable(
+            "latent",
+            "The three-way effect on items as ordered answers, and on rescues out of a fixed "
+            "number",
+            ("Outcome", "Rounds", "*SD* of people", "χ²", "*df*", "*p*"),
+            tuple(
+                (row["of"], str(row["n_rows"]), decimal(row["sd_participant"]),
+                 decimal(row["chi2"]), str(row["df"]), p_value(row["p"]))
+                for row in map(_numbers, latent_table(study))
+            ),
+            "Cumulative logit models of the items, a binomial logit model of the rescues, each "
+            "with "
+            "a random intercept; likelihood-ratio tests. *SD* is on the logit scale.",
+        ),
+        ApaTable(
             "priors",
             "Bayes factors of adaptive − static by the scale of the prior",
             ("Outcome", *(f"*{name[0]}*{name[1:]}" for name in priors.columns)),
@@ -631,6 +646,8 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Captioned]]:
             "four mental states.",
         ),
     ]  # fmt: skip
+    if not specifications:
+        return tables, []
     figure = specification_figure(specifications, simulated=study.simulated, alpha=alpha)
     return tables, [figure]
 

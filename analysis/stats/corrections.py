@@ -1,6 +1,7 @@
 """Adjusting p-values inside one family of comparisons."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -29,8 +30,18 @@ def tukey(t: Floats, means: int, df: int) -> Floats:
     return np.clip(beyond, 0.0, 1.0)
 
 
-def _nodes(lower: float, upper: float, number: int = 96) -> tuple[Floats, Floats]:
+#: Nodes of each of the two integrals.
+NODES = 64
+
+
+@lru_cache
+def _legendre(number: int) -> tuple[Floats, Floats]:
     nodes, weights = np.polynomial.legendre.leggauss(number)
+    return nodes, weights
+
+
+def _nodes(lower: float, upper: float) -> tuple[Floats, Floats]:
+    nodes, weights = _legendre(NODES)
     half = (upper - lower) / 2
     return lower + half * (nodes + 1), half * weights
 

@@ -1,7 +1,7 @@
 # The reference numbers of this folder, by R: `make reference` computes them all again and fails when
 # one has moved; `make reference WRITE=1` writes them. Run from this folder.
 
-PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "jsonlite")
+PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "ordinal", "jsonlite")
 absent <- PACKAGES[!vapply(PACKAGES, requireNamespace, logical(1), quietly = TRUE)]
 if (length(absent)) {
   debian <- paste0("r-cran-", tolower(absent), collapse = " ")
@@ -265,6 +265,28 @@ outcome_of <- function(data, outcome) {
     paired = paired_of(wide), lmm = lmm_of(data, outcome))
 }
 
+# --- models with a random intercept on the logit scale --------------------------------------------
+
+latent_of <- function(data) {
+  test <- function(full, less) {
+    chi2 <- 2 * (as.numeric(logLik(full)) - as.numeric(logLik(less)))
+    list(chi2 = chi2, df = 4, p = pchisq(chi2, 4, lower.tail = FALSE))
+  }
+  items <- lapply(setNames(ITEMS, ITEMS), function(item) {
+    rows <- data[!is.na(data[[item]]), ]
+    rows$y <- factor(rows[[item]])
+    full <- clmm(y ~ knowledge * complexity * adaptivity + (1 | participant), rows, nAGQ = -41)
+    less <- clmm(y ~ (knowledge + complexity + adaptivity)^2 + (1 | participant), rows, nAGQ = -41)
+    c(list(loglik = as.numeric(logLik(full))), test(full, less))
+  })
+  rows <- data[!is.na(data$victims), ]
+  fit <- function(formula) suppressMessages(lme4::glmer(formula, rows, family = binomial, nAGQ = 25,
+    control = lme4::glmerControl(optimizer = "bobyqa", optCtrl = list(rhoend = 1e-9))))
+  full <- fit(cbind(victims, 20 - victims) ~ knowledge * complexity * adaptivity + (1 | participant))
+  less <- fit(cbind(victims, 20 - victims) ~ (knowledge + complexity + adaptivity)^2 + (1 | participant))
+  c(items, list(victims = test(full, less)))
+}
+
 reference_of <- function(name) {
   data <- read_long(name)
   outcomes <- lapply(setNames(OUTCOMES, OUTCOMES), function(outcome) outcome_of(data, outcome))
@@ -274,7 +296,8 @@ reference_of <- function(name) {
   list(dataset = name, clustering = clustering_of(name),
        alpha = list(all = alpha_of(data), static = alpha_of(data[data$adaptivity == "static", ]),
                     adaptive = alpha_of(data[data$adaptivity == "adaptive", ])),
-       outcomes = outcomes, holm_across_mental_states = holm)
+       outcomes = outcomes, holm_across_mental_states = holm,
+       latent = if (name %in% c("unbalanced", "partial")) latent_of(data) else NULL)
 }
 
 # --- compare or write -----------------------------------------------------------------------------

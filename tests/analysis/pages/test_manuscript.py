@@ -5,6 +5,7 @@ import json
 import re
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -21,11 +22,14 @@ from analysis.command import command
 from analysis.pages import style
 from analysis.pages.apa_table import ApaTable, marked, unmarked
 from analysis.pages.manuscript import Found, Section, manuscript, tables_of, turned
+from analysis.pages.other_programs import wide_csv
 from analysis.pages.published import PUBLISHED
 from analysis.pages.style import FORMATS
 from analysis.sources.frames import StudyData
 from analysis.stats.cellmodel import CELLS
+from game.tables.asked import Outcomes
 from game.tables.exclusions import read_rules
+from tests.analysis.pages.drawn import faults
 
 ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
@@ -240,3 +244,22 @@ def test_the_command_asks_for_something_to_write(make_table: MakeTable, tmp_path
     make_table().to_csv(source, index=False)
     run = CliRunner().invoke(command, [str(source)])
     assert run.exit_code == 2 and "--report DIR" in run.output
+
+
+def test_a_study_that_asks_other_questions_has_its_own_outcomes(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    study = read_table(make_table(dict.fromkeys(CELLS, 9)).drop(columns="disobeyed"))
+    asked = Outcomes(("calm",), {}, {"calm": (1, 7)})
+    calm = study.rounds["engagement"] % 7 + 1
+    rounds = study.rounds.assign(calm=calm).drop(columns=["engagement", "preference"])
+    other = replace(study, rounds=rounds, asked=asked)
+    sections = sections_of(other)
+    test_no_table_has_an_unformed_number(sections)
+    assert {row[0] for row in table_called(sections, "anova_all").rows} == {"victims", "calm"}
+    drawn = [figure for section in sections for figure in section.figures]
+    assert {"fig7_mental_states", "fig9_calm", "cells_calm"} <= {figure.name for figure in drawn}
+    assert [fault for figure in drawn for fault in faults(figure)] == []
+    assert "calm_static" in wide_csv(other).splitlines()[0]
+    none = replace(other, asked=Outcomes((), {}, {}))
+    assert table_called(sections_of(none), "anova_all").rows[0][0] == "victims"

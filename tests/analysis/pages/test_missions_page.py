@@ -74,7 +74,7 @@ def test_words_cannot_end_the_script(made: Path) -> None:
     assert data_of(again)["missions"][0]["words"] == [[0, "</script><b>"]]
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="there is no browser here")
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="Chromium is not installed")
 def test_a_browser_draws_the_points_and_the_chosen_mission(page: str, tmp_path: Path) -> None:
     path = tmp_path / "missions.html"
     path.write_text(page, encoding="utf-8")

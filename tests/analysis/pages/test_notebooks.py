@@ -1,4 +1,4 @@
-"""Every notebook runs to its end, says that people are simulated, and is stored without outputs."""
+"""Every notebook runs to its end, says that people are simulated, and is stored with outputs."""
 
 from pathlib import Path
 
@@ -16,14 +16,18 @@ def test_all_questions_are_there_in_order() -> None:
 
 
 @pytest.mark.parametrize("path", notebooks(), ids=lambda path: path.stem)
-def test_stored_without_outputs_and_with_one_parameter(path: Path) -> None:
+def test_stored_with_what_it_shows_and_with_one_parameter(path: Path) -> None:
     cells = read(path).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
     assert title(read(path)).endswith("?") or path.stem[:2] in ("00", "01", "11")
     assert code[0].source.startswith(PARAMETER)
     assert code[0].metadata.tags == ["parameters"]
-    assert not any(cell.outputs or cell.execution_count for cell in code)
     assert not any("SOURCE =" in cell.source for cell in code[1:])
+    assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
+    outputs = [output for cell in code for output in cell.outputs]
+    assert outputs and all(output.output_type == "execute_result" for output in outputs)
+    assert SIMULATED in html(read(path))
+    assert path.stat().st_size < 1_500_000
 
 
 def test_every_notebook_runs_on_the_shipped_study() -> None:

@@ -33,7 +33,7 @@ def test_the_wide_table_is_read_back_as_the_same_study(
     pd.testing.assert_frame_equal(again.participants[same], study.participants[same])
 
 
-@pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not here")
+@pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
 def test_r_gives_the_same_main_tests(study: StudyData, tmp_path: Path) -> None:
     write_for_other_programs(study, tmp_path)
     command = ["Rscript", "main_tests.R", "out.csv"]

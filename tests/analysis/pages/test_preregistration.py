@@ -54,6 +54,6 @@ def test_other_files_and_settings_are_refused_by_name(study: Path, tmp_path: Pat
     run = CliRunner().invoke(command, [str(tmp_path), "--prereg", str(tmp_path / "plan.md")])
     assert isinstance(run.exception, SourceError) and "no study.toml" in str(run.exception)
     settings = study / "study.toml"
-    settings.write_text(settings.read_text(encoding="utf-8").replace("blocks", "blokcs"))
+    settings.write_text(settings.read_text(encoding="utf-8").replace("blocks", "block_count"))
     with pytest.raises(SourceError, match="blocks"):
         planned(settings, read_rules(), 0.05)

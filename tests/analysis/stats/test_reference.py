@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from analysis.battery import BatteryResult, analyse_source
+from analysis.stats.latent import latent_row
 
 REFERENCE = Path(__file__).resolve().parents[2] / "reference"
 
@@ -111,6 +112,14 @@ def test_one_key_of_the_whole_study(ours: Any, expected: Any, key: str) -> None:
 def test_one_part_of_one_outcome(ours: Any, expected: Any, outcome: str, part: str) -> None:
     mine, theirs = ours["outcomes"][outcome][part], expected["outcomes"][outcome][part]
     assert differences(mine, theirs, f"{outcome}.{part}.") == []
+
+
+@pytest.mark.parametrize("dataset", ["unbalanced", "partial"], indirect=True)
+def test_ordered_answers_and_rescues_out_of_twenty(result: BatteryResult, expected: Any) -> None:
+    for measure, theirs in expected["latent"].items():
+        ours: Any = latent_row(result.study, measure)
+        for name, value in theirs.items():
+            assert ours[name] == pytest.approx(value, abs=2e-4, rel=2e-4), (measure, name)
 
 
 def test_nothing_is_a_problem(result: BatteryResult) -> None:

@@ -13,6 +13,7 @@ from analysis.sources.frames import Floats, Ints, Paired, StudyData, both_rounds
 from analysis.stats.anova import HYPOTHESES, THREE_WAY, WITHIN, difference_model, mixed_anova
 from analysis.stats.cellmodel import CELLS, fit_cells
 from analysis.stats.equivalence import paired_row
+from analysis.stats.latent import latent_row
 from analysis.stats.robust import f_of_many, permutation_rows, prior_rows, trimmed_row
 from analysis.stats.specifications import specification_rows
 from game.tables.exclusions import read_rules
@@ -141,3 +142,29 @@ def test_a_curve_of_a_pilot_says_what_could_not_be_had(
     drawn = specification_figure(rows, simulated=False)
     assert f"{len(rows)} more could not be had" in drawn.caption and faults(drawn) == []
     assert survival(rows) == []
+
+
+def test_a_flat_or_empty_outcome_has_no_latent_model(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    flat = read_table(make_table().drop(columns="disobeyed").assign(victims=20))
+    with pytest.raises(Refusal, match="alike"):
+        latent_row(flat, "victims")
+    table = make_table().drop(columns="disobeyed")
+    empty = read_table(table[~((table["knowledge"] == "LOW") & (table["complexity"] == "C1"))])
+    with pytest.raises(Refusal, match="no rows"):
+        latent_row(empty, "pref1")
+
+
+def test_a_planted_effect_on_the_rescues_is_found(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    table = make_table(dict.fromkeys(CELLS, 8)).drop(columns="disobeyed")
+    aligned = (table["knowledge"].map(["LOW", "MED", "HIGH"].index)
+               == table["complexity"].map(["C1", "C2", "C3"].index))  # fmt: skip
+    noise = np.random.default_rng(9).binomial(20, 0.5, len(table))
+    adaptive = table["adaptivity"] == "adaptive"
+    table["victims"] = np.clip(noise + 6 * (aligned & adaptive), 0, 20)
+    row = latent_row(read_table(table), "victims")
+    assert float(str(row["p"])) < 0.001
+    assert float(str(row["sd_participant"])) < 0.3

@@ -32,9 +32,9 @@ from game.screens.play.past_missions import (
 from game.screens.play.result import ResultScreen, result_pages
 from game.screens.play.result_card import card_svg, card_text
 from game.screens.play.start_screen import StartScreen
+from game.screens.widgets import stillness
 from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Notice
-from game.screens.widgets.stillness import STILL_S
 from game.session.playing import end_free_play, start_free_play, start_in_memory
 from game.session.replay import Replay
 from game.world import load_building
@@ -158,7 +158,10 @@ def test_past_missions_are_read_from_the_journals(tmp_path: Path, ward: Building
     }
 
 
-async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> None:
+async def test_the_page_is_deaf_until_the_keys_were_still(
+    open_app: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stillness, "STILL_S", 60.0)
     async with open_app(duration_ms=1_000) as (app, pilot):
         await until(pilot, MissionScreen)
         result: ResultScreen = await until(pilot, ResultScreen)
@@ -166,7 +169,7 @@ async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> Non
             await press(pilot, "enter", "f9", "right")
             assert app.screen is result
             assert result._shown == "Result", "keys go on and on"
-        await asyncio.sleep(STILL_S + 0.1)
+        monkeypatch.setattr(stillness, "STILL_S", 0.0)
         await press(pilot, "right")
         assert result._shown == "People"
         await press(pilot, "left", "enter")
@@ -176,7 +179,7 @@ async def test_the_page_is_deaf_until_the_keys_were_still(open_app: Open) -> Non
 async def test_the_card_is_copied_and_written(open_app: Open) -> None:
     async with open_app(duration_ms=1_000) as (app, pilot):
         result = await until(pilot, ResultScreen)
-        await asyncio.sleep(STILL_S + 0.1)
+        await asyncio.sleep(stillness.STILL_S + 0.1)
         await press(pilot, "c")
         notice = await until(pilot, Notice)
         assert "0 of 3 rescued" in str(notice.query("Static").last().render())
@@ -247,3 +250,27 @@ async def test_home_says_what_was_reached_in_such_a_mission(open_app: Open, tmp_
         assert "best 0, last time 0" in shown(home)
         await press(pilot, "down", "right")
         assert "best" not in shown(home), "not in this building"
+
+
+async def test_home_says_what_a_literal_reader_reaches_once_a_choice_stands(
+    open_app: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+
+    def reached(building: Building, *_: object) -> int:
+        asked.append(building.name)
+        return 17
+
+    monkeypatch.setattr("game.screens.play.home.DWELL_S", 0.05)
+    monkeypatch.setattr("game.screens.play.benchmark.literal_rescues", reached)
+    async with open_app(AnaApp.show_home) as (_, pilot):
+        home = await until(pilot, HomeScreen)
+        for _ in range(500):
+            if "a literal reader 17" in shown(home):
+                break
+            await asyncio.sleep(0.02)
+        assert "a literal reader 17" in shown(home)
+        home._select("victims")
+        await press(pilot, "right", "left", "right")
+        await asyncio.sleep(0.2)
+    assert asked == ["Harbour House"], "nobody knows it for victims that are yet to be placed"

@@ -14,6 +14,7 @@ from textual.screen import Screen
 
 from game.coach.spec import parse_coach
 from game.errors import AnaError
+from game.journal.clock import MissionClock
 from game.journal.reader import read_journal
 from game.journal.records import Paused, SessionEnded, Unpaused
 from game.screens.play.app import AnaApp, PlayOptions, run_home, run_play
@@ -308,9 +309,10 @@ def test_without_a_terminal_it_says_so(ward: Building, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40), (200, 60)])
 async def test_the_screen_tells_nothing_but_the_observation(
-    open_app: Open, ward: Building, size: tuple[int, int]
+    open_app: Open, ward: Building, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Victims and names out of sight change no character of the first picture."""
+    monkeypatch.setattr(MissionClock, "now_ms", lambda _: 0)
     other = parse_building(
         ward.text.replace("*.#\n#", "o.#\n#").replace("Test Lab", "Archive"), "other"
     )
