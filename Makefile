@@ -31,10 +31,13 @@ reproduce: $(VENV)/all.stamp  ## simulate a study, and make every number, figure
 	@$(BIN)/python -m analysis.reproduce out
 
 COMPARED := static:1,static:2,static:3,ana,ana:calibrated,ana:belief,knowledge,knowledge+quiz,truth
+SWITCH := knowledge:switch_gain_ms
+SWITCHING := static:1,static:2,static:3,ana,$(SWITCH)=0,$(SWITCH)=500,knowledge,$(SWITCH)=2000,$(SWITCH)=4000,$(SWITCH)=8000,$(SWITCH)=16000
 
 coaches: $(VENV)/all.stamp  ## compare the coaches on simulated people (twenty minutes on two cores)
 	@mkdir -p out
 	@$(BIN)/ana compare --coaches "$(COMPARED)" --people 100 --json out/coaches.json --figures out/coaches
+	@$(BIN)/ana compare --coaches "$(SWITCHING)" --people 100 --worlds default --json out/switching.json
 
 bench: $(VENV)/all.stamp  ## measure speed beside the floors, in one run
 	@$(BIN)/python -m tests.bench

@@ -13,8 +13,8 @@ MISSING = {
     "root may read everything": "a user who is not root",
     "OpenSSH's server or client is not installed": "an OpenSSH server",
     "Chromium is not installed": "Chromium",
-    "R is not installed": "R",
     "no font has the signs of the map": "the font DejaVu Sans Mono",
+    "R is not installed": "R",
     "the extra `cluster` is not installed": "the extra cluster",
 }
 """The reasons for which a test may be skipped, and what is missing then."""

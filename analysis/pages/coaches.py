@@ -38,6 +38,9 @@ from analysis.stats.intervals import Interval
 
 _COLOURS = (BLUE, ORANGE, GREEN, VERMILION, INK)
 _MARKERS = ("o", "s", "^", "D", "v")
+_AS_SHIPPED = "as shipped"
+TOLD = (_AS_SHIPPED, "0", "16")
+"""The points of the curve of switches that are named in it."""
 
 
 def comparison_text(comparison: Comparison, people: str) -> str:
@@ -68,7 +71,7 @@ _HEADER = (
 
 def _line(cell: Cell, best: bool) -> str:
     interval = cell.rescues_interval
-    half = "" if interval is None else f"±{interval.upper - interval.estimate:.2f}"
+    half = "" if interval is None else f"±{_half(interval):.2f}"
     shares = " ".join(_share(share) for share in (cell.c1, cell.c2, cell.c3, cell.lost))
     return (
         f"{cell.group:<5} {cell.coach + ('*' if best else ''):<18.18} {cell.n:>4} "
@@ -362,6 +365,71 @@ def switches_figure(comparison: Comparison, world: str) -> Captioned:
             "something only where it saves somebody.",
             simulated=True,
         )
+
+
+def switching_figure(comparison: Comparison, world: str) -> Captioned:
+    """The curve of rescues against switches of `knowledge`, by what a switch must save, beside the
+    other coaches."""
+    varied = {c.coach: c.switches for c in comparison.cells if _must_save(c.coach)}
+    values = [_must_save(coach) for coach in sorted(varied, key=varied.__getitem__)]
+    with quiet_style():
+        figure = Figure(figsize=(TWO_COLUMNS, 3.4), layout="constrained")
+        panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
+        for axes, group in zip(panels, KNOWLEDGE, strict=True):
+            axes.set_title(group)
+            cells = [c for c in comparison.cells if (c.world, c.group) == (world, group)]
+            curve = sorted((c for c in cells if _must_save(c.coach)), key=lambda c: c.switches)
+            axes.errorbar(
+                [cell.switches for cell in curve],
+                [cell.rescues for cell in curve],
+                [_half(cell.rescues_interval) for cell in curve],
+                color=INK,
+                marker="o",
+                label="knowledge",
+            )
+            for cell in (c for c in curve if _must_save(c.coach) in TOLD):
+                axes.annotate(
+                    _must_save(cell.coach),
+                    (cell.switches, cell.rescues),
+                    xytext=(0, -24),
+                    textcoords="offset points",
+                    ha="center",
+                    va="top",
+                    fontsize=7,
+                )
+            others = [c for c in cells if not _must_save(c.coach)]
+            for number, cell in enumerate(others):
+                axes.plot(
+                    cell.switches,
+                    cell.rescues,
+                    _MARKERS[1 + number % (len(_MARKERS) - 1)],
+                    color=_COLOURS[number % len(_COLOURS)],
+                    label=cell.coach,
+                )
+            axes.set_xlabel("switches a mission")
+        panels[0].set_ylabel("rescued victims")
+        handles, names = panels[0].get_legend_handles_labels()
+        figure.legend(handles, names, loc="outside lower center", ncols=5, fontsize=7)
+        return captioned(
+            "coaches-switching",
+            figure,
+            f"Rescued victims against switches of level, world {world}, with 95% intervals. The "
+            "points of `knowledge` differ in how many seconds it must expect to save by another "
+            f"level before it changes: {', '.join(values)}, from left to right.",
+            simulated=True,
+        )
+
+
+def _must_save(coach: str) -> str:
+    """How many seconds a switch of this coach must save; empty for those that do not ask."""
+    if coach == "knowledge":
+        return _AS_SHIPPED
+    _, said, value = coach.partition("knowledge:switch_gain_ms=")
+    return f"{float(value) / 1000:g}" if said else ""
+
+
+def _half(interval: Interval | None) -> float:
+    return 0.0 if interval is None else interval.upper - interval.estimate
 
 
 def path_rows(comparison: Comparison, kind: str) -> list[Row]:

@@ -179,6 +179,7 @@ def play_in_text(options: PlayOptions) -> int:
         sys.stdout,
         memorise_ms=options.memorise_ms,
         variant=options.variant,
+        about=options.about,
     )
 
 

@@ -117,6 +117,23 @@ def test_two_files_of_questions_are_one_too_many(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ready_names())
+def test_a_german_form_asks_what_the_english_one_asks(name: str) -> None:
+    for there, here in zip(ready_forms(name).forms, ready_forms(name, "de").forms, strict=True):
+        assert (there.id, there.places, there.order) == (here.id, here.places, here.order)
+        for one, other in zip(there.questions, here.questions, strict=True):
+            assert (one.id, one.role, one.rights) == (other.id, other.role, other.rights)
+            assert (one.least, one.most) == (other.least, other.most)
+            assert one.shown_when == other.shown_when
+            assert one.text != other.text
+        assert [it.items for it in there.composites] == [it.items for it in here.composites]
+
+
+def test_a_language_that_there_is_not_is_refused() -> None:
+    with pytest.raises(AnaError, match="no translation 'fr'"):
+        ready_forms("sus", "fr")
+
+
+@pytest.mark.parametrize("name", ready_names())
 def test_a_ready_form_can_be_copied_into_a_study(name: str) -> None:
     forms = ready_forms(name)
     assert forms.forms

@@ -96,7 +96,7 @@ def test_the_names_of_what_may_be_had(tmp_path: Path) -> None:
     ("key", "value", "told"),
     [
         ("instructors", '["static", "anna"]', "there is no anna. Did you mean ana"),
-        ("instructors", '["static", "ana:beleif"]', "Did you mean belief"),
+        ("instructors", '["static", "ana:beliefs"]', "Did you mean belief"),
         ("instructors", '["ana", "ana"]', "must differ"),
         ("instructors", '["static", "yoked"]', "repeats the levels of ana"),
         ("static_levels", "[3, 1]", "must rise"),

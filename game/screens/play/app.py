@@ -171,16 +171,16 @@ class AnaApp(Program, inherit_bindings=False):
         self.exit(return_code=2)
 
     def action_stand_aside(self) -> None:
-        """Stop the clock, and give the terminal back to the shell that started the game."""
+        """Stop the clock, where the rules allow that, and give the terminal back to the shell that
+        started the game."""
         from game.screens.play.map_screen import MapScreen
         from game.screens.play.mission_screen import LiveScreen
         from game.screens.widgets.dialogs import Notice
 
         screen = self.screen
         if isinstance(screen, LiveScreen):
-            if not screen.live.settings.allow_pause:
-                return
-            screen.action_pause()
+            if screen.live.settings.allow_pause:
+                screen.action_pause()
         elif isinstance(screen, MapScreen):
             self.push_screen(Notice("Paused", "The time for the map stands still.", key="Resume"))
         if has_job_control():
@@ -272,8 +272,9 @@ class AnaApp(Program, inherit_bindings=False):
         """The settings, over whatever is shown."""
         from game.screens.play.home import HomeScreen
         from game.screens.play.settings_screen import SettingsScreen
+        from game.screens.widgets.dialogs import TooSmall
 
-        if not isinstance(self.screen, ModalScreen):
+        if not isinstance(self.screen, SettingsScreen | TooSmall):
             file = keys_file(self._preferences_file)
             write_template(file)
             if isinstance(self.screen, HomeScreen):
@@ -331,10 +332,9 @@ class AnaApp(Program, inherit_bindings=False):
         return PlayOptions(building, self._coach(), rules, seed, self._log_dir(), onward="same")
 
     def _coach(self) -> CoachSpec:
-        from game.coach.spec import parse_coach
+        from game.screens.play.home import spec_of
 
-        kind, _, level = self.preferences.coach.partition("-")
-        return parse_coach(kind, int(level) if level else None)
+        return spec_of(self.preferences.coach)
 
     # --- the tutorial ---------------------------------------------------------------------------
 

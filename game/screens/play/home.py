@@ -7,15 +7,18 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar, get_args
 
-from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.message import Message
 from textual.screen import Screen
+from textual.timer import Timer
 
+from game.coach.spec import CoachSpec, parse_coach
 from game.screens.play.menu import Item, after, menu_rows
+from game.screens.play.mission_story import coach_name
 from game.screens.play.past_missions import (
+    MissionKind,
     PastMission,
     best,
     difficulty,
@@ -23,6 +26,7 @@ from game.screens.play.past_missions import (
     of_kind,
     past_missions,
 )
+from game.screens.widgets.aside import aside
 from game.screens.widgets.canvas import BLANK, Canvas, Row, centred, width
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
 from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
@@ -57,6 +61,8 @@ _SCENE_KINDS = {
 BUILDINGS = ("harbour", "foundry", "practice", GENERATED)
 VICTIMS = {"drawn": "as drawn", "seeded": "elsewhere each time"}
 CONTROLS = {"compass": "arrows walk", "turn": "arrows turn, and walk ahead"}
+DWELL_S = 1.0
+"""How long a choice has stood before it is looked at what a literal reader reaches."""
 MOST_DIGITS = 9
 """Of a seed that is typed."""
 COACHES = (
@@ -99,6 +105,19 @@ def menu_items(preferences: Preferences, reached: str = "", seed: str = "") -> t
         Item("howto", "How to play"),
         Item("quit", "Quit"),
     )
+
+
+def spec_of(coach: str) -> CoachSpec:
+    """The coach that a preference names."""
+    kind, _, level = coach.partition("-")
+    return parse_coach(kind, int(level) if level else None)
+
+
+def _reader_of(chosen: Preferences, rules: MissionSettings) -> int | None:
+    """What a literal reader reaches in the mission that is chosen."""
+    from game.screens.play.benchmark import literal_rescues
+
+    return literal_rescues(load_building(chosen.building), rules, spec_of(chosen.coach), 1)
 
 
 class HomePage(ClickCanvas):
@@ -175,6 +194,8 @@ class HomeScreen(Pointed, Screen[None]):
         self._log_dir = log_dir
         self._rules = rules
         self._past: tuple[PastMission, ...] = ()
+        self._readers: dict[MissionKind, int | None] = {}
+        self._dwelling: Timer | None = None
         self.seed = ""
         """Digits, where a seed was typed."""
         self._page = HomePage()
@@ -188,18 +209,12 @@ class HomeScreen(Pointed, Screen[None]):
 
     def on_mount(self) -> None:
         self._show()
-        self._read()
-
-    @work(thread=True)
-    def _read(self) -> None:
-        """Read what was played before, meanwhile."""
-        past = past_missions(newest_journals(self._log_dir))
-        self.app.call_from_thread(self._have_read, past)
+        self._dwell()
+        aside(self, lambda: past_missions(newest_journals(self._log_dir)), self._have_read)
 
     def _have_read(self, past: tuple[PastMission, ...]) -> None:
         self._past = past
-        if self.is_attached:
-            self._show()
+        self._show()
 
     def prefer(self, preferences: Preferences) -> None:
         """Show other preferences."""
@@ -212,17 +227,43 @@ class HomeScreen(Pointed, Screen[None]):
     def _items(self) -> tuple[Item, ...]:
         return menu_items(self.preferences, self._reached(), self.seed)
 
+    def _kind(self) -> MissionKind:
+        """Building, coach and difficulty of such a mission as is chosen."""
+        chosen, named = self.preferences, self.preferences.difficulty
+        coach = coach_name(spec_of(chosen.coach))
+        return _building_name(chosen.building), coach, difficulty(self._rules(named), named)
+
     def _reached(self) -> str:
-        """The best and the latest result of such a mission as is chosen."""
-        kind, _, level = self.preferences.coach.partition("-")
-        coach = f"{kind} C{level}" if level else kind
-        building = _building_name(self.preferences.building)
-        named = self.preferences.difficulty
-        such = of_kind(self._past, (building, coach, difficulty(self._rules(named), named)))
-        top = best(such)
-        if top is None:
-            return ""
-        return f"best {top.rescued}, last time {max(such, key=lambda it: it.at).rescued}"
+        """The best and the latest result of such a mission, and what a literal reader reaches."""
+        kind = self._kind()
+        such = of_kind(self._past, kind)
+        top, reader = best(such), self._readers.get(kind)
+        told = []
+        if top is not None:
+            latest = max(such, key=lambda it: it.at)
+            told.append(f"best {top.rescued}, last time {latest.rescued}")
+        if reader is not None:
+            told.append(f"a literal reader {reader}")
+        return "; ".join(told)
+
+    def _dwell(self) -> None:
+        """Ask a literal reader once the choice has stood for a moment."""
+        if self._dwelling is not None:
+            self._dwelling.stop()
+        self._dwelling = self.set_timer(DWELL_S, self._ask_reader)
+
+    def _ask_reader(self) -> None:
+        chosen, kind = self.preferences, self._kind()
+        usual = chosen.victims == "drawn" and chosen.difficulty == "standard"
+        if kind in self._readers or chosen.building == GENERATED or not usual:
+            return
+        self._readers[kind] = None
+        rules = self._rules(chosen.difficulty)
+        aside(self, lambda: (kind, _reader_of(chosen, rules)), self._have_asked)
+
+    def _have_asked(self, told: tuple[MissionKind, int | None]) -> None:
+        kind, self._readers[kind] = told[0], told[1]
+        self._show()
 
     def on_row_clicked(self, message: RowClicked) -> None:
         number = self._page.item_at(message.row)
@@ -240,6 +281,7 @@ class HomeScreen(Pointed, Screen[None]):
         if item in _CHOICES:
             wanted = after(_CHOICES[item], getattr(self.preferences, item), way)
             self.preferences = self.preferences.replaced(**{item: wanted})
+            self._dwell()
         self._show()
 
     def action_digit(self, digit: str) -> None:

@@ -7,12 +7,12 @@ from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
-from game.screens.play.past_missions import PastMission, past_mission
+from game.screens.play.past_missions import PastMission, past_mission, past_missions
+from game.screens.widgets.aside import aside
 from game.screens.widgets.canvas import BLANK, Row, Run
 from game.screens.widgets.charts import bars
 from game.screens.widgets.keyline import KeyLine
@@ -127,18 +127,11 @@ class JournalsScreen(Pointed, Screen[Chosen]):
         )  # fmt: skip
 
     def on_mount(self) -> None:
-        self._read()
-
-    @work(thread=True)
-    def _read(self) -> None:
-        found = (past_mission(path) for path in self._journals)
-        missions = tuple(it for it in found if isinstance(it, PastMission))
-        self.app.call_from_thread(self._have_read, missions)
+        aside(self, lambda: past_missions(self._journals), self._have_read)
 
     def _have_read(self, missions: tuple[PastMission, ...]) -> None:
         self._missions = missions
-        if self.is_attached:
-            self._show()
+        self._show()
 
     def on_resize(self) -> None:
         self.call_after_refresh(self._show)

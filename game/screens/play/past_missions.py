@@ -20,6 +20,8 @@ from game.world.variant import Difficulty, with_demands
 
 MOST = 200
 """So many journals are looked at, the newest first."""
+MissionKind = tuple[str, str, str]
+"""What missions are compared by: building, coach and difficulty."""
 CANNOT_BE_READ = "cannot be read"
 _OF_NO_WEIGHT = frozenset({"show_score", "allow_pause", "level_key", "controls"})
 """Settings that make a mission neither easier nor harder."""
@@ -48,8 +50,8 @@ class PastMission:
     map_s: int
 
     @property
-    def kind(self) -> tuple[str, str, str]:
-        """What missions are compared by: building, coach and difficulty."""
+    def kind(self) -> MissionKind:
+        """What it is compared by."""
         return self.building, self.coach, self.difficulty
 
     @property
@@ -137,7 +139,7 @@ def _points(played: MissionHistory, building: Building) -> int:
     return sum(played.started.settings.points(severity[victim]) for victim in saved)
 
 
-def of_kind(past: Iterable[PastMission], kind: tuple[str, str, str]) -> list[PastMission]:
+def of_kind(past: Iterable[PastMission], kind: MissionKind) -> list[PastMission]:
     """The missions that count and are of a kind, in their order."""
     return [mission for mission in past if mission.counts and mission.kind == kind]
 

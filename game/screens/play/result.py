@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
-from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
@@ -16,13 +15,13 @@ from textual.screen import Screen
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.past_missions import (
-    PastMission,
     newest_journals,
     past_mission,
     past_missions,
     standing,
 )
 from game.screens.play.pathmap import legend_row, path_map, victim_pin
+from game.screens.widgets.aside import aside
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside, width, wrapped
 from game.screens.widgets.charts import area_chart, step_chart
 from game.screens.widgets.keyline import KeyLine
@@ -321,27 +320,31 @@ class ResultScreen(DeafAtFirst, Pointed, Screen[None]):
         yield self._keys
 
     def on_mount(self) -> None:
-        self._look_around()
+        aside(self, self._stand, self._have_stood)
 
     def on_resize(self) -> None:
         self._show()
 
-    @work(thread=True, group="standing")
-    def _look_around(self) -> None:
-        """Compare with what was played before, and with a literal reader."""
+    def _stand(self) -> str:
+        """How the mission compares with those before it."""
         now = past_mission(self.journal)
-        if isinstance(now, PastMission):
-            told = standing(now, past_missions(newest_journals(self.journal.parent.parent)))
-            self.app.call_from_thread(self._compare, told, None)
-        story = self.story
-        rescued = literal_rescues(story.building, story.settings, story.spec, story.seed)
-        self.app.call_from_thread(self._compare, None, rescued)
+        if isinstance(now, str):
+            return ""
+        return standing(now, past_missions(newest_journals(self.journal.parent.parent)))
 
-    def _compare(self, told: str | None, literal: int | None) -> None:
-        self._standing = self._standing if told is None else told
-        self._literal = self._literal if literal is None else literal
-        if self.is_attached:
-            self._show()
+    def _reader(self) -> int | None:
+        """What a literal reader reaches in it."""
+        story = self.story
+        return literal_rescues(story.building, story.settings, story.spec, story.seed)
+
+    def _have_stood(self, told: str) -> None:
+        self._standing = told
+        self._show()
+        aside(self, self._reader, self._have_read)
+
+    def _have_read(self, rescued: int | None) -> None:
+        self._literal = rescued
+        self._show()
 
     def _remarks(self, columns: int) -> list[Row]:
         reader = "" if self._literal is None else f"A literal reader rescues {self._literal}."

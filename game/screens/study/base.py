@@ -56,12 +56,13 @@ class Frame:
 
 class FixedStage(Vertical):
     """Holds a screen's widgets, in the middle of the terminal and never larger than the study
-    says: a larger terminal has blank margins."""
+    says: a larger terminal has blank margins. In a smaller one, where only the last pages are
+    shown, they take the room there is."""
 
     def __init__(self, frame: Frame, *content: Widget) -> None:
         super().__init__(*content, classes="stage")
-        self.styles.width = frame.size.columns
-        self.styles.height = frame.size.rows
+        self.styles.width, self.styles.max_width = frame.size.columns, "100%"
+        self.styles.height, self.styles.max_height = frame.size.rows, "100%"
 
 
 class TextColumn(VerticalScroll):

@@ -227,6 +227,9 @@ class FormScreen(StudyScreen[bool]):
         if letter.isascii() and letter.isdigit():
             await self._digit(int(letter))
             return True
+        if letter == "-" and isinstance(question, NumberItem) and question.least < 0:
+            self._write("-")
+            return True
         return False
 
     async def _moved(self, key: str) -> bool:
@@ -404,8 +407,9 @@ class FormScreen(StudyScreen[bool]):
         return False
 
     async def _leave_number(self, question: NumberItem, draft: str) -> bool:
-        if draft and question.least <= int(draft) <= question.most:
-            await self.sheet.answer(question, int(draft))
+        number = int(draft) if draft.strip("-") else None
+        if number is not None and question.least <= number <= question.most:
+            await self.sheet.answer(question, number)
         elif draft:
             words = self.frame.words.whole_number.replace("{least}", f"{question.least}")
             self._refused = words.replace("{most}", f"{question.most}")

@@ -6,7 +6,8 @@ from __future__ import annotations
 import asyncio
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import AsyncIterator, Callable, Iterator, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path, PurePath
@@ -64,23 +65,42 @@ class Rehearsed:
     too_tall: dict[str, int]
 
 
-class _Showing(Program, inherit_bindings=False):
+class Showing(Program, inherit_bindings=False):
+    """A program that shows one page after another."""
+
     CSS_PATH: ClassVar[list[str | PurePath]] = StudyApp.CSS_PATH
 
-    def __init__(self, make: Make, look: Look) -> None:
+    def __init__(self, look: Look) -> None:
         super().__init__("dark", look)
-        self._make = make
 
-    async def on_mount(self) -> None:
-        await self.push_screen(self._make())
+    @asynccontextmanager
+    async def opened(self, make: Make) -> AsyncIterator[Screen[Any]]:
+        """A page, made and shown within the program, and closed afterwards."""
+        made: asyncio.Future[Screen[Any]] = asyncio.get_running_loop().create_future()
+
+        async def push() -> None:
+            try:
+                screen = make()
+                await self.push_screen(screen)
+            except Exception as error:
+                made.set_exception(error)
+            else:
+                made.set_result(screen)
+
+        self.call_later(push)
+        screen = await made
+        yield screen
+        while screen in self.screen_stack:
+            await self.pop_screen()
 
 
-async def shown(name: str, frame: Frame, make: Make, words: str) -> Rehearsed:
-    """Open a page at the study's size, look at all of it, and compare it with its `words`."""
-    app = _Showing(make, frame.size.look)
+async def shown(pilot: Pilot[None], name: str, make: Make, words: str) -> Rehearsed:
+    """Open a page in a `Showing`, look at all of it, and compare it with its `words`."""
+    app = pilot.app
+    assert isinstance(app, Showing)
     views: list[list[str]] = []
     pictures: list[str] = []
-    async with app.run_test(size=(frame.size.columns, frame.size.rows)) as pilot:
+    async with app.opened(make) as screen:
         await pilot.pause()
         for _ in range(MOST_VIEWS):
             view = painted(app)
@@ -89,8 +109,7 @@ async def shown(name: str, frame: Frame, make: Make, words: str) -> Rehearsed:
             views.append(view)
             pictures.append(app.export_screenshot(title=name))
             await _go_on(pilot)
-        form = app.screen
-        too_tall = form.too_tall() if isinstance(form, FormScreen) else {}
+        too_tall = screen.too_tall() if isinstance(screen, FormScreen) else {}
     return Rehearsed(name, tuple(_unseen(words, views)), tuple(pictures), too_tall)
 
 
@@ -142,8 +161,11 @@ class _AllShown(Sheet):
 class _Rehearsal(SimulatedParticipant):
     """Goes through a session as a simulated person does, and has every page opened on the way."""
 
-    def __init__(self, session: StudySession, clock: VirtualClock, frame: Frame) -> None:
+    def __init__(
+        self, session: StudySession, clock: VirtualClock, frame: Frame, pilot: Pilot[None]
+    ) -> None:
         super().__init__(session, clock, POPULATIONS["default"])
+        self._pilot = pilot
         self.pages: list[Rehearsed] = []
         self._mission_shown = False
         self._frame = frame
@@ -236,7 +258,7 @@ class _Rehearsal(SimulatedParticipant):
     async def _show(self, name: str, make: Make, *words: Page | str) -> None:
         said = "\n".join(it if isinstance(it, str) else f"{it.title}\n{it.body}" for it in words)
         number = f"{len(self.pages) + 1:02} {name}"
-        self.pages.append(await shown(number, self._frame, make, said))
+        self.pages.append(await shown(self._pilot, number, make, said))
 
     async def others(self) -> None:
         """The pages that a session without trouble does not come by."""
@@ -272,9 +294,11 @@ async def rehearse(study: Study) -> list[Rehearsed]:
         held, Identity("pilot", "CHECK"), None, clock=clock, rescuer="check", sink=lambda _: sink
     )
     frame = Frame(study.settings.screen, study.texts.words)
-    person = _Rehearsal(session, clock, frame)
-    await conduct(session, person)
-    await person.others()
+    size = frame.size.columns, frame.size.rows
+    async with Showing(frame.size.look).run_test(size=size) as pilot:
+        person = _Rehearsal(session, clock, frame, pilot)
+        await conduct(session, person)
+        await person.others()
     return person.pages
 
 

@@ -39,9 +39,11 @@ def play_text(
     *,
     memorise_ms: int = 0,
     variant: Variant = USUAL,
+    about: str = "",
 ) -> int:
     """Play a mission by `lines`, telling it to `out`; the exit status. The end of the lines, or an
-    interrupt, leaves the mission. With `memorise_ms` it is first told where the rooms are.
+    interrupt, leaves the mission. With `memorise_ms` it is first told where the rooms are; `about`
+    says what sets the mission apart.
 
     Raises JournalError if the journal cannot be written.
     """
@@ -54,12 +56,16 @@ def play_text(
     _record_signals(journal)
     status = 0
     try:
-        for line in rooms_of(building) if memorise_ms else ():
+        before = [f"{about}."] if about else []
+        for line in (*before, *(rooms_of(building) if memorise_ms else ())):
             print(line, file=out, flush=True)
         mission.begin()
         _take_all(mission, lines, out)
     except KeyboardInterrupt:
         status = STATUS_INTERRUPTED
+    except BrokenPipeError:
+        mission.end()
+        raise
     mission.end()
     for line in _outcome(journal):
         print(line, file=out, flush=True)

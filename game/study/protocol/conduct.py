@@ -294,7 +294,8 @@ async def _form(session: StudySession, who: Participant, step: Step, _seen_ms: i
         if step == first and interrupted:
             page = preceded(page, texts.cut_off.mission)
     sheet = Sheet(session, items_in_order(form, session.seed, step.round))
-    await who.fill(page, sheet)
+    if sheet.asked:
+        await who.fill(page, sheet)
     await sheet.close()
     await session.save(PhaseEnded("completed", 0))
 

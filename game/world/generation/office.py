@@ -37,6 +37,7 @@ _LOST_BY_PLAN_MS = 9_000
 """A good walker can be so much faster than the plan, which allows a move for each treatment."""
 _OCCUPIED = (15, 16, 16, 17)
 """So many rooms have victims: one or two."""
+_FEWEST_EMPTY = 3
 _PLACINGS = 14
 """So many ways to place the victims are tried in one layout."""
 _FLOOR = range(2650, 3500)
@@ -255,7 +256,8 @@ def _victims(building: Building, lobby: str, random: Random) -> Lying | None:
     spots = tuple(
         spots_of(room, building, SPOTS, random) for room in building.rooms if room.name != lobby
     )
-    occupied = random.choice(_OCCUPIED)
+    most = len(building.rooms) - _FEWEST_EMPTY
+    occupied = random.choice([number for number in _OCCUPIED if number <= most])
     counts = [2] * (VICTIMS - occupied) + [1] * (2 * occupied - VICTIMS)
     for lying in islice(dealt(spots, counts, REDS, random), _PLACINGS):
         found = reached(floodfills, building.start, lying)

@@ -250,3 +250,27 @@ async def test_home_says_what_was_reached_in_such_a_mission(open_app: Open, tmp_
         assert "best 0, last time 0" in shown(home)
         await press(pilot, "down", "right")
         assert "best" not in shown(home), "not in this building"
+
+
+async def test_home_says_what_a_literal_reader_reaches_once_a_choice_stands(
+    open_app: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+
+    def reached(building: Building, *_: object) -> int:
+        asked.append(building.name)
+        return 17
+
+    monkeypatch.setattr("game.screens.play.home.DWELL_S", 0.05)
+    monkeypatch.setattr("game.screens.play.benchmark.literal_rescues", reached)
+    async with open_app(AnaApp.show_home) as (_, pilot):
+        home = await until(pilot, HomeScreen)
+        for _ in range(500):
+            if "a literal reader 17" in shown(home):
+                break
+            await asyncio.sleep(0.02)
+        assert "a literal reader 17" in shown(home)
+        home._select("victims")
+        await press(pilot, "right", "left", "right")
+        await asyncio.sleep(0.2)
+    assert asked == ["Harbour House"], "nobody knows it for victims that are yet to be placed"

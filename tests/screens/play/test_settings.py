@@ -54,6 +54,10 @@ async def test_over_a_mission_settings_stop_its_clock(open_app: Open) -> None:
         await press(pilot, "escape")
         assert app.screen is mission
         assert not mission.live.paused
+        await press(pilot, "p", "f2")
+        await until(pilot, SettingsScreen)
+        await press(pilot, "escape", "p")
+        assert app.screen is mission
 
 
 async def test_the_bell_rings_only_where_it_is_wanted(

@@ -142,3 +142,15 @@ async def test_a_question_taller_than_the_window_is_told() -> None:
     items = (ChoiceItem(id="country", text="Where?", answers=many),)
     async with at(made(session, items), 120, 40) as (_, screen):
         assert screen.too_tall() == {"country": 5}
+
+
+async def test_a_number_below_nothing_can_be_typed() -> None:
+    session = Session()
+    items = (NumberItem(id="change", text="By how much?", from_=-20, to=20, required=False),)
+    async with at(made(session, items), 120, 40) as (pilot, screen):
+        await pilot.press("minus", "enter")
+        assert not screen._done
+        await pilot.press("7", "enter")
+        await pilot.pause()
+        assert screen._done
+    assert answers(session) == {"change": -7}

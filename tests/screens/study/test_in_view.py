@@ -17,7 +17,7 @@ from game.journal.records import Envelope, QuestionnaireAnswer
 from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
-from game.screens.study.rehearsal import Make, _Showing, painted
+from game.screens.study.rehearsal import Make, Showing, painted
 from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Sheet
@@ -78,9 +78,10 @@ def scales(count: int) -> tuple[ScaleItem, ...]:
 
 @asynccontextmanager
 async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
-    async with _Showing(make, LOOK).run_test(size=(columns, rows)) as pilot:
+    app = Showing(LOOK)
+    async with app.run_test(size=(columns, rows)) as pilot, app.opened(make) as screen:
         await pilot.pause(1.1)
-        yield pilot, pilot.app.screen
+        yield pilot, screen
 
 
 def whole(screen: FormScreen, app: Any) -> bool:
