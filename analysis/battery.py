@@ -4,12 +4,13 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from analysis.report import summary
 from analysis.sources.absent import Absent, Leaf, Plain, Row, Tree, attempt, plain
 from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
-from analysis.sources.provenance import provenance
+from analysis.sources.provenance import Provenance, provenance
 from analysis.sources.samples import left_by
 from analysis.sources.source import load
 from analysis.sources.study_folder import Tick, is_study_folder
@@ -42,6 +43,7 @@ from analysis.stats.power import SEED as POWER_SEED
 from analysis.stats.power import power_rows
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.reliability import alpha_rows
+from analysis.stats.robust import SEED as PERMUTATION_SEED
 from analysis.stats.sensitivity import continuous_rows, exclusion_rows, other_grouping_rows
 from game.journal.records import StudyMode
 from game.tables.exclusions import ExclusionRules, read_rules
@@ -247,19 +249,7 @@ def analyse_source(
     loaded()
     rules = read_rules().known_to(list(read.study.participants.columns))
     result = run_battery(read.study, rules, alpha)
-    made = provenance(
-        source,
-        quiz,
-        mode,
-        {
-            "alpha": alpha,
-            "exclusion_rule": rules.main().name,
-            "verified": check and is_study_folder(source),
-        },
-        {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED},
-    )
-    values, _ = plain(made.row())
-    result.results["provenance"] = values
+    made = signed(result, source, quiz, mode, verified=check and is_study_folder(source))
     if figures is not None:
         from analysis.pages.figures import write_figures
 
@@ -284,6 +274,27 @@ def analyse_source(
             page = missions_html(read_replays(source, mode), result.study)
             (report / "missions.html").write_text(page, encoding="utf-8")
     return result
+
+
+def signed(
+    result: BatteryResult,
+    source: Path,
+    quiz: Path | None = None,
+    mode: StudyMode | None = None,
+    *,
+    verified: bool,
+) -> Provenance:
+    """Write into the results where they come from, and return it."""
+    read: Mapping[str, Any] = result.results
+    settings: dict[str, Leaf] = {
+        "alpha": read["source"]["alpha_level"],
+        "exclusion_rule": read["source"]["exclusion_rule"],
+        "verified": verified,
+    }
+    seeds = {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED, "permutation": PERMUTATION_SEED}
+    made = provenance(source, quiz, mode, settings, seeds)
+    result.results["provenance"], _ = plain(made.row())
+    return made
 
 
 def preregister(source: Path, out: Path, alpha: float = ALPHA) -> None:

@@ -15,7 +15,7 @@ from time import monotonic
 
 import click
 
-from analysis.battery import run_battery
+from analysis.battery import run_battery, signed
 from analysis.execute import executed, html, notebooks, title, write
 from analysis.pages.figures import write_figures
 from analysis.pages.preset_studies import POPULATIONS, PRESETS, Key, missions_of, write_missions
@@ -63,8 +63,9 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
         say(str(write_missions(table, out / "tables")))
     say("Every statistic")
     result = run_battery(recorded.study(), read_rules())
+    made = signed(result, out / "study", None, "simulated", verified=True)
     (out / "results.json").write_text(result.to_json(), encoding="utf-8")
-    write_figures(result.study, out / "figures")
+    write_figures(result.study, out / "figures", origin=made.line())
     say("The notebooks")
     (out / "report").mkdir(parents=True, exist_ok=True)
     pages = []

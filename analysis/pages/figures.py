@@ -1,6 +1,7 @@
 """The paper's Figs. 7, 8 and 9 from tidy tables, and the estimates behind its ANOVA."""
 
 from pathlib import Path
+from textwrap import fill
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +14,7 @@ from analysis.pages.style import (
     INK,
     LEVEL_COLOURS,
     LEVEL_MARKERS,
+    ONE_COLUMN,
     SHADE,
     TWO_COLUMNS,
     VERMILION,
@@ -187,7 +189,7 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
     outer, inner = 1 - alpha, 1 - 2 * alpha
     thin, thick = percent(outer), percent(inner)
     with quiet_style():
-        figure = Figure(figsize=(TWO_COLUMNS, 3.2))
+        figure = Figure(figsize=(ONE_COLUMN, 3.6))
         axes = figure.subplots()
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")
@@ -199,11 +201,11 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
             estimate = attempt(overall, study, outcome)
             if isinstance(estimate, Absent):
                 labels.append(outcome)
-                axes.text(0, at, f"no estimate: {estimate.reason}", va="center", ha="center",
-                          fontsize=7)  # fmt: skip
+                reason = fill(f"no estimate: {estimate.reason}", 30)
+                axes.text(0, at, reason, va="center", ha="center", fontsize=7)
                 continue
-            weights = "" if estimate.equal_cells else ", people equal"
-            labels.append(f"{outcome} (n = {estimate.n}{weights})")
+            weights = "" if estimate.equal_cells else "\npeople equal"
+            labels.append(f"{outcome}\nn = {estimate.n}{weights}")
             for level, width in ((outer, 1.2), (inner, 3.2)):
                 ends = estimate.interval(level)
                 axes.plot(ends, [at, at], color=BLUE, linewidth=width, solid_capstyle="butt")
@@ -212,9 +214,7 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
         axes.set_yticks(range(len(study.outcomes)), labels)
         axes.set_ylim(len(study.outcomes) - 0.5, -0.5)
         axes.set_xlim(-1.08 * reach, 1.08 * reach)
-        axes.set_xlabel(
-            f"adaptive - static, in SD of the static round ({thick} CI thick, {thin} CI thin)"
-        )
+        axes.set_xlabel(f"adaptive - static, in SD of static\n(CI {thick} thick, {thin} thin)")
         return captioned(
             "adaptivity_estimates",
             figure,

@@ -527,7 +527,7 @@ def preference(found: Found) -> Part:
                 "counted.",
             )
         )  # fmt: skip
-        figures.append(preferred_figure(chosen, simulated=found.study.simulated))
+        figures.append(preferred_figure(chosen, simulated=found.study.simulated, alpha=found.alpha))
     return "Preference (sections 5.3 and 5.5)", sentences, tables, figures
 
 

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from analysis.pages.style import (
     BLUE,
     INK,
+    ONE_COLUMN,
     ORANGE,
     SHADE,
     TWO_COLUMNS,
@@ -17,6 +18,7 @@ from analysis.pages.style import (
 from analysis.sources.absent import Absent, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
 from analysis.sources.frames import StudyData
+from analysis.stats.level import ALPHA, percent
 
 POINTS = (1, 2, 3, 4, 5)
 STATEMENTS = dict(
@@ -49,11 +51,11 @@ def statements_figure(study: StudyData) -> Captioned:
         )
 
 
-def preferred_figure(rows: Row | Absent, *, simulated: bool) -> Captioned:
+def preferred_figure(rows: Row | Absent, *, simulated: bool, alpha: float = ALPHA) -> Captioned:
     """The share who preferred the adaptive instructor; `rows` are those of `preferred_rows`."""
     table = preferred_table(rows)
     with quiet_style():
-        figure = Figure(figsize=(TWO_COLUMNS, 1.4 + 0.3 * max(1, len(table))))
+        figure = Figure(figsize=(ONE_COLUMN, 1.0 + 0.24 * max(1, len(table))))
         axes = figure.subplots()
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")
@@ -67,11 +69,15 @@ def preferred_figure(rows: Row | Absent, *, simulated: bool) -> Captioned:
         )
         axes.set_ylim(len(table) - 0.5, -0.5)
         axes.set_xlim(0, 1)
-        axes.set_xlabel("share who preferred the adaptive instructor")
+        axes.set_xlabel(
+            f"share who preferred the adaptive\ninstructor (exact {percent(1 - alpha)} CI)"
+        )
         return captioned(
             "preferred",
             figure,
-            "Which instructor was preferred, with exact 95% intervals: an interval that misses the "
+            f"Which instructor was preferred, with exact {percent(1 - alpha)} intervals: an "
+            "interval "
+            "that misses the "
             "dotted half is a preference.",
             simulated=simulated,
         )
