@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -89,12 +90,10 @@ def label_lines(
 
 def _free_columns(cells: Sequence[Cell], scale: MapScale) -> dict[int, frozenset[int]]:
     """For every map row, the terminal columns in which only `cells` are drawn."""
-    free = frozenset(cells)
     rows: dict[int, set[int]] = {}
-    for x, y in free:
-        row = y // scale.cells
-        drawn = ((x, row * scale.cells + below) for below in range(scale.cells))
-        if all(cell in free for cell in drawn):
+    drawn = Counter((x, y // scale.cells) for x, y in cells)
+    for (x, row), free in drawn.items():
+        if free == scale.cells:
             left = x * scale.columns
             rows.setdefault(row, set()).update(range(left, left + scale.columns))
     return {row: frozenset(columns) for row, columns in rows.items()}

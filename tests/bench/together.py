@@ -18,6 +18,7 @@ PARTICIPANTS = 12
 NAMES = tuple(f"p{number:02}" for number in range(PARTICIPANTS))
 PER_SECOND = 8.0
 KEYS_EACH = 80
+PATIENCE_S = 60.0
 BEFORE, WITHIN = "Your mission", "for reds"
 """On the page before the mission, and on its panel."""
 
@@ -43,8 +44,8 @@ def in_missions(
 ) -> SharedCosts:
     """Have everybody begin the mission whose page they are on, and press keys; `ignored_rows` hold
     a clock."""
-    for terminal in terminals:
-        _enter(terminal)
+    everybody_shows(terminals, BEFORE)
+    _enter(terminals)
     return keys_at_once(terminals, keys, ignored_rows=ignored_rows, folder=study.folder)
 
 
@@ -106,14 +107,24 @@ def up_to_the_mission(study: Study, identity: Identity) -> None:
     raise RuntimeError(f"{identity.participant} never came to the mission")
 
 
-def _enter(terminal: Watched) -> None:
-    """Begin the mission; the page before it is deaf for a moment."""
-    until = time.perf_counter() + 20
-    while WITHIN not in terminal.text():
+def _enter(terminals: Sequence[Watched]) -> None:
+    """Begin everybody's mission; the page before it is deaf for a moment."""
+    until = time.perf_counter() + PATIENCE_S
+    while outside := [it for it in terminals if WITHIN not in it.text()]:
         if time.perf_counter() > until:
-            raise TimeoutError(terminal.text())
-        terminal.press("enter")
-        terminal.read_for(0.3)
+            raise TimeoutError(outside[0].text())
+        for terminal in outside:
+            terminal.press("enter")
+        watch_for(terminals, 0.5)
+
+
+def everybody_shows(terminals: Sequence[Watched], text: str) -> None:
+    """Wait until `text` is on every screen; all are read meanwhile. Raises TimeoutError."""
+    until = time.perf_counter() + PATIENCE_S
+    while without := [it for it in terminals if text not in it.text()]:
+        if time.perf_counter() > until:
+            raise TimeoutError(without[0].text())
+        watch_for(terminals, 0.1)
 
 
 def _press(terminals: Sequence[Watched], keys: Sequence[str]) -> list[list[float]]:

@@ -14,7 +14,6 @@ from game.study.folder import Identity, Study
 from game.study.lab.sshd import ID_VARIABLE
 from tests.bench.screen import COLUMNS, ROWS
 from tests.bench.together import (
-    BEFORE,
     NAMES,
     SharedCosts,
     in_missions,
@@ -78,7 +77,6 @@ def _bare(keys: Sequence[str], ignored_rows: Sequence[int]) -> SharedCosts:
             env = {ID_VARIABLE: name, "COLORTERM": "truecolor"}
             terminal = Terminal(login, columns=COLUMNS, rows=ROWS, env=env)
             terminals.append(stack.enter_context(terminal))
-            terminal.wait_for(BEFORE)
         return in_missions(study, terminals, keys, ignored_rows=ignored_rows)
 
 
@@ -90,7 +88,6 @@ def _served(keys: Sequence[str], ignored_rows: Sequence[int]) -> SharedCosts:
         for name in NAMES:
             line = _Line(server, name)
             lines.append(stack.enter_context(closing(line)))
-            line.wait_for(BEFORE)
         return in_missions(study, lines, keys, ignored_rows=ignored_rows)
 
 

@@ -104,3 +104,12 @@ def test_a_locale_without_utf8_is_told(folder: Path, monkeypatch: pytest.MonkeyP
     study = open_study(folder)
     monkeypatch.setattr("locale.getpreferredencoding", lambda do_setlocale: "ISO-8859-1")
     assert any("set LANG=C.UTF-8" in one for one in shortfalls(study))
+
+
+def test_a_primary_outcome_that_nothing_measures_is_told(folder: Path) -> None:
+    assert list(shortfalls(open_study(folder))) == []
+    study = edit(folder, "study.toml", '["engagement", "victims"]', '["engagements", "joy"]')
+    told = [one for one in shortfalls(study) if "primary.outcomes" in one]
+    assert len(told) == 2
+    assert "Did you mean engagement?" in told[0]
+    assert "forms.toml asks no such item" in told[1]

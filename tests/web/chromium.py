@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from tests.terminal import Chunk, Shown
-from tests.web.aside import aside
 from tests.web.client import COLUMNS, ROWS
+from tests.web.own_loop import own_loop
 
 if TYPE_CHECKING:
     from playwright.async_api import Browser as PlaywrightBrowser
@@ -83,9 +83,9 @@ class Tab(Shown):
     def press(self, *keys: str) -> None:
         for key in keys:
             if key in _KEYS:
-                aside.run(self.page.keyboard.press(_KEYS[key]))
+                own_loop.run(self.page.keyboard.press(_KEYS[key]))
             else:
-                aside.run(self.page.keyboard.type(key))
+                own_loop.run(self.page.keyboard.type(key))
 
     def read_for(self, seconds: float) -> bool:
         time.sleep(seconds)
@@ -104,7 +104,7 @@ class Tab(Shown):
 
     def open(self, address: str) -> int:
         """Go to a page; the status of the answer, 0 where nobody was asked."""
-        answer = aside.run(self.page.goto(address))
+        answer = own_loop.run(self.page.goto(address))
         return answer.status if answer is not None else 0
 
     def stand_in(self, address: str, says: str) -> None:
@@ -113,11 +113,11 @@ class Tab(Shown):
         async def answer(route: Route) -> None:
             await route.fulfill(body=says, content_type="text/plain")
 
-        aside.run(self.page.route(f"{address}**", answer))
+        own_loop.run(self.page.route(f"{address}**", answer))
 
     def reload(self) -> None:
         """Press the browser's own key for it, and agree to leave."""
-        aside.run(self.page.reload())
+        own_loop.run(self.page.reload())
 
     def notice(self) -> str:
         """The heading of what lies over the terminal; empty where nothing does."""
@@ -135,31 +135,31 @@ class Tab(Shown):
             time.sleep(0.05)
 
     def evaluate(self, script: str) -> Any:
-        return aside.run(self.page.evaluate(script))
+        return own_loop.run(self.page.evaluate(script))
 
     def click(self, what: str) -> None:
-        aside.run(self.page.click(what))
+        own_loop.run(self.page.click(what))
 
     def resize(self, width: int, height: int) -> None:
-        aside.run(self.page.set_viewport_size({"width": width, "height": height}))
+        own_loop.run(self.page.set_viewport_size({"width": width, "height": height}))
 
     def picture(self, path: Path) -> None:
-        aside.run(self.page.screenshot(path=path))
+        own_loop.run(self.page.screenshot(path=path))
 
     def wheel(self, pixels: int) -> None:
         """Turn the wheel over the middle of the page."""
-        aside.run(self.page.mouse.move(400, 300))
-        aside.run(self.page.mouse.wheel(0, pixels))
+        own_loop.run(self.page.mouse.move(400, 300))
+        own_loop.run(self.page.mouse.wheel(0, pixels))
 
     def close(self) -> None:
-        aside.run(self.page.close())
+        own_loop.run(self.page.close())
 
 
 class Chromium:
     """The browser without windows. Use as a context manager."""
 
     def __enter__(self) -> Self:
-        aside.run(self._start(), 60)
+        own_loop.run(self._start(), 60)
         return self
 
     async def _start(self) -> None:
@@ -171,7 +171,7 @@ class Chromium:
         )
 
     def __exit__(self, *_: object) -> None:
-        aside.run(self._stop())
+        own_loop.run(self._stop())
 
     async def _stop(self) -> None:
         await self._browser.close()
@@ -180,7 +180,7 @@ class Chromium:
     def person(self, size: tuple[int, int] = WINDOW) -> BrowserContext:
         """Someone's browser, which shares nothing with another's."""
         width, height = size
-        return aside.run(self._browser.new_context(viewport={"width": width, "height": height}))
+        return own_loop.run(self._browser.new_context(viewport={"width": width, "height": height}))
 
     def tab(self, person: BrowserContext | None = None, size: tuple[int, int] = WINDOW) -> Tab:
         """A new tab, in somebody's browser or in a new one."""
@@ -189,7 +189,7 @@ class Chromium:
             return Tab(await within.new_page())
 
         within = person or self.person(size)
-        return aside.run(new())
+        return own_loop.run(new())
 
 
 class Wire:
@@ -202,11 +202,11 @@ class Wire:
         self._cut = False
 
     def __enter__(self) -> Self:
-        aside.run(self._start())
+        own_loop.run(self._start())
         return self
 
     def __exit__(self, *_: object) -> None:
-        aside.run(self._stop())
+        own_loop.run(self._stop())
 
     async def _start(self) -> None:
         self._flows.set()
@@ -249,7 +249,7 @@ class Wire:
             self._cut = True
             self._break()
 
-        aside.run(cut())
+        own_loop.run(cut())
 
     def mend(self) -> None:
         self._cut = False
@@ -260,4 +260,4 @@ class Wire:
         async def hold() -> None:
             self._flows.clear() if back else self._flows.set()
 
-        aside.run(hold())
+        own_loop.run(hold())

@@ -11,7 +11,7 @@ from contextlib import suppress
 import aiohttp
 
 from tests.terminal import KEYS, Chunk, Shown
-from tests.web.aside import aside
+from tests.web.own_loop import own_loop
 
 TAB = "abcdefgh"
 COLUMNS, ROWS = 120, 40
@@ -27,7 +27,7 @@ def get(address: str, **headers: str) -> tuple[int, str, dict[str, str]]:
         ):
             return answer.status, await answer.text(errors="replace"), dict(answer.headers)
 
-    return aside.run(fetch())
+    return own_loop.run(fetch())
 
 
 class WebTerminal(Shown):
@@ -54,7 +54,7 @@ class WebTerminal(Shown):
         self._headers = {"Origin": address.rstrip("/"), **headers}
         self._url = f"{address}line"
         self._query = {"ticket": ticket, "tab": tab}
-        aside.run(self._connect(reads))
+        own_loop.run(self._connect(reads))
 
     async def _connect(self, reads: bool) -> None:
         self._session = aiohttp.ClientSession()
@@ -83,7 +83,7 @@ class WebTerminal(Shown):
         return self
 
     def __exit__(self, *_: object) -> None:
-        aside.run(self._close())
+        own_loop.run(self._close())
 
     async def _close(self) -> None:
         with suppress(Exception):
@@ -98,7 +98,7 @@ class WebTerminal(Shown):
             if response is not None and response.transport is not None:
                 response.transport.abort()
 
-        aside.run(abort())
+        own_loop.run(abort())
 
     def press(self, *keys: str) -> None:
         for key in keys:
@@ -108,7 +108,7 @@ class WebTerminal(Shown):
         """Send a message as it is."""
         send = self._socket.send_str if isinstance(message, str) else self._socket.send_bytes
         with suppress(ConnectionError):
-            aside.run(send(message))  # type: ignore[arg-type]
+            own_loop.run(send(message))  # type: ignore[arg-type]
 
     def read_for(self, seconds: float) -> bool:
         self._news.clear()

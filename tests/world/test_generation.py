@@ -19,6 +19,7 @@ from game.journal.folders import JOURNAL
 from game.rescuers.driver import drive
 from game.rescuers.literal import LiteralReader
 from game.session.playing import start_in_memory
+from game.study.folder import new_study, open_study
 from game.world import load_building
 from game.world.building import Building, Severity
 from game.world.fitness import shortcomings
@@ -176,6 +177,16 @@ class TestCommands:
         path = tmp_path / "mine.txt"
         path.write_text(load_building("generated:7").text)
         assert load_building(path) == load_building("generated:7")
+
+
+def test_a_study_can_be_held_in_two(tmp_path: Path) -> None:
+    folder = tmp_path / "study"
+    new_study(folder, seed=1, blocks=1)
+    path = folder / "study.toml"
+    settings = path.read_text().replace("harbour", "generated:3").replace("foundry", "generated:4")
+    path.write_text(settings)
+    buildings = {building.name for building in open_study(folder).buildings}
+    assert buildings == {generated(3).name, generated(4).name}
 
 
 def test_a_mission_in_one_replays_from_its_journal(tmp_path: Path) -> None:

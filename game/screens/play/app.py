@@ -113,7 +113,7 @@ class AnaApp(Program, inherit_bindings=False):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+z", "stand_aside", id="app.suspend", priority=True),
-        Binding("f2", "settings", id="app.settings"),
+        Binding("f2", "settings", id="app.settings", priority=True),
         Binding("question_mark,f1", "help", id="app.help"),
     ]
     CSS_PATH: ClassVar[list[str | PurePath]] = [

@@ -136,8 +136,9 @@ class FormScreen(StudyScreen[bool]):
     def writing(self) -> bool:
         """Whether letters are typed into the active question."""
         question = self.asked
-        chosen = isinstance(question, ChoiceItem) and question.has_other(self.sheet.value(question))
-        return isinstance(question, TextItem) or chosen
+        if isinstance(question, ChoiceItem) and question.has_other(self.sheet.value(question)):
+            return not question.several or self._mark == question.most - 1
+        return isinstance(question, TextItem)
 
     def too_tall(self) -> dict[str, int]:
         """The questions that are never wholly in view, and how many rows each has too many."""
@@ -215,8 +216,12 @@ class FormScreen(StudyScreen[bool]):
         if self.writing and (letter.isprintable() and letter):
             self._write((self._draft or "") + letter)
             return True
-        if key == "backspace" and self._draft is not None:
+        if key == "backspace" and self._draft:
             self._write(self._draft[:-1])
+            return True
+        if key == "backspace" and self.writing and isinstance(question, ChoiceItem):
+            if question.several:
+                await self._toggle(question.most)
             return True
         if key == "delete" and not question.required:
             await self._clear()
@@ -334,8 +339,10 @@ class FormScreen(StudyScreen[bool]):
                 after = middle if number is None else within(question, number + way)
                 await self._answer(after)
             case ChoiceItem(several=True):
-                self._mark = max(0, min(question.most - 1, self._mark + way))
-                self.show()
+                if await self._leave():
+                    self._mark = max(0, min(question.most - 1, self._mark + way))
+                    self._begin_writing()
+                    self.show()
             case ChoiceItem():
                 first = question.least if way > 0 else question.most
                 after = first if number is None else within(question, number + way)

@@ -53,8 +53,8 @@ from game.world.events import (
     Rescued,
     TreatmentBroken,
 )
-from game.world.geometry import Heading
-from game.world.observation import Guidance, Observation
+from game.world.geometry import Cell, Heading
+from game.world.observation import Guidance, Observation, VictimState
 from game.world.plan import Tile
 
 LONGEST_WAIT_MS = 30_000
@@ -125,7 +125,8 @@ class TextMission:
         self._now_ms = 0
         self._facing = run.observation().heading
         self._guidance = Guidance("")
-        self._known: set[object] = set()
+        self._in_view: set[Cell | str] = set()
+        """The people and the names that were in view when that was last told."""
         self._leaving = False
 
     @property
@@ -147,7 +148,7 @@ class TextMission:
         self._say("The bar tells you where to go. Type help for the commands.")
         self._tell("look")
         self._tell_bar()
-        self._notice_all()
+        self._note_view()
 
     def take(self, line: str) -> None:
         """Carry out what was typed, and say what came of it."""
@@ -294,16 +295,16 @@ class TextMission:
         now = self._run.observation()
         if self._run.mission.settings.controls == "turn":
             self._facing = now.heading
+        said: set[str] = set()
         for event in self._heard.take():
             told = self._told(event, now)
-            if told and told not in self._known:
+            if told and told not in said:
                 self._say(told)
-            if isinstance(event, Expired):
-                self._known.add(told)
+            said.add(told)
         if self._run.ended:
             return
-        victims = [it for it in now.victims if (it.cell, it.severity) not in self._known]
-        rooms = {room.name for room in now.rooms if room.name not in self._known}
+        victims = [it for it in now.victims if it.cell not in self._in_view]
+        rooms = {room.name for room in now.rooms if room.name not in self._in_view}
         for line in (
             *victims_told(now, self._facing, victims),
             *rooms_told(now, self._facing, rooms),
@@ -311,12 +312,12 @@ class TextMission:
         ):
             if line:
                 self._say(line)
-        self._notice_all()
+        self._note_view()
 
-    def _notice_all(self) -> None:
+    def _note_view(self) -> None:
         now = self._run.observation()
-        self._known |= {(it.cell, it.severity) for it in now.victims}
-        self._known |= {room.name for room in now.rooms}
+        self._in_view = {it.cell for it in now.victims if it.state is VictimState.WAITING}
+        self._in_view |= {room.name for room in now.rooms}
 
     def _told(self, event: MissionEvent, now: Observation) -> str:
         match event:

@@ -23,7 +23,8 @@ FLASH_S = 0.6
 """How long a new instruction stands out."""
 
 
-_SENTENCE = re.compile(r"(?<=[.!?]) +")
+_WIDE_STOPS = ("。", "！", "？")
+_SENTENCE = re.compile(r"(?<=[.!?]) +|(?<=[。！？])(?=.)")
 
 
 def sentences_in_rows(text: str, columns: int) -> list[str]:
@@ -31,8 +32,10 @@ def sentences_in_rows(text: str, columns: int) -> list[str]:
     rows = wrapped(text, columns)
     whole: list[str] = []
     for sentence in _SENTENCE.split(text) if len(rows) > 1 else ():
-        if whole and cell_len(whole[-1]) + 1 + cell_len(sentence) <= columns:
-            whole[-1] += f" {sentence}"
+        before = "".join(whole[-1:])
+        joined = f"{before}{'' if before.endswith(_WIDE_STOPS) else ' '}{sentence}"
+        if before and cell_len(joined) <= columns:
+            whole[-1] = joined
         else:
             whole += wrapped(sentence, columns)
     return whole if 0 < len(whole) <= len(rows) else rows

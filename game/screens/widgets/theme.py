@@ -164,6 +164,7 @@ _LIGHT_2 = _LIGHT | {
     "seen-rescued": "#33754f",
     "seen-expired": "#6a6c72",
     "map-wall": "#8d887d",
+    "map-door": "#a86d2c",
     "map-floor": "#ccc7bc",
     "known-door": "#c26a12",
 }

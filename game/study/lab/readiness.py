@@ -10,10 +10,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from game.errors import AnaError, did_you_mean
+from game.forms.reading import FORMS
 from game.journal.folders import SESSIONS
-from game.study.folder import INSTRUCTIONS, LEDGER, TEXTS, Study
+from game.study.folder import INSTRUCTIONS, LEDGER, SETTINGS, TEXTS, Study
 from game.study.lab.hindrances import Hindrances
 from game.study.ledger import lock_whole
+from game.tables.asked import outcomes_of
 from game.toml_lines import at_line, line_of
 
 _TRIAL = ".check"
@@ -27,6 +29,7 @@ def shortfalls(study: Study) -> Iterator[str]:
     yield from _locale()
     yield from _half_time(study)
     yield from _rooms(study)
+    yield from _outcomes(study)
 
 
 def _files(folder: Path) -> Iterator[str]:
@@ -106,3 +109,13 @@ def _half_time(study: Study) -> Iterator[str]:
     told = "{red_time}" in mission.body or "{red_time}" in mission.title
     if early and not told:
         yield f"{TEXTS}, mission: nothing says that red victims expire; add {{red_time}}"
+
+
+def _outcomes(study: Study) -> Iterator[str]:
+    """Primary outcomes must be measured."""
+    asked = outcomes_of(study.forms)
+    known = ("victims", *asked.composites, *asked.ranges)
+    for name in study.settings.primary.outcomes:
+        if name not in known:
+            hint = did_you_mean(name, known) or f"{FORMS} asks no such item after each mission"
+            yield f"{SETTINGS}, primary.outcomes: nothing measures {name}. {hint}"

@@ -198,6 +198,8 @@ class Sheet:
             raise ValueError(f"{question.id} is not answered by {value!r}")
         if self.value(question) != value:
             await self._session.save(self._record(question, value))
+        if isinstance(question, ChoiceItem) and not question.has_other(value):
+            await self._clear(question.id + OTHER, hidden=True)
 
     async def write_other(self, question: ChoiceItem, words: str) -> None:
         """Record what was written beside the answer `other`, unless it is unchanged."""
@@ -207,18 +209,18 @@ class Sheet:
     async def clear(self, question: AnyQuestion, *, hidden: bool = False) -> None:
         """Take an answer back, with what was written beside it."""
         for name in (question.id, question.id + OTHER):
-            step = self._session.step
-            if (step, name) in self._session.history.words or (
-                self._session.history.answer(step, name) is not None
-            ):
-                await self._session.save(
-                    AnswerCleared(
-                        item=name,
-                        hidden=hidden,
-                        response_ms=self._session.now_ms() - self._shown_ms,
-                        version=self._session.study.version,
-                    )
+            await self._clear(name, hidden=hidden)
+
+    async def _clear(self, name: str, *, hidden: bool) -> None:
+        if self._session.history.answer(self._session.step, name) is not None:
+            await self._session.save(
+                AnswerCleared(
+                    item=name,
+                    hidden=hidden,
+                    response_ms=self._session.now_ms() - self._shown_ms,
+                    version=self._session.study.version,
                 )
+            )
 
     async def close(self) -> None:
         """Take back what was answered to questions that are no longer shown."""

@@ -154,3 +154,32 @@ async def test_a_number_below_nothing_can_be_typed() -> None:
         await pilot.pause()
         assert screen._done
     assert answers(session) == {"change": -7}
+
+
+async def test_beside_other_is_written_and_the_rest_can_still_be_marked() -> None:
+    session = Session()
+    answers_ = ("maps", "puzzles")
+    items = (ChoiceItem(id="k", text="Which?", answers=answers_, other="else:", several=True),)
+    async with at(made(session, items), 120, 40) as (pilot, screen):
+        await pilot.press("3", *"a 1", "left", "space", "1")
+        assert answers(session) == {"k": (1, 2, 3), "k_other": "a 1"}
+        await pilot.press("right", "right", *["backspace"] * 4)
+        await pilot.pause()
+        assert answers(session) == {"k": (1, 2)}
+        await pilot.press("enter")
+        await pilot.pause()
+        assert screen._done
+
+
+async def test_what_was_written_goes_with_the_answer_other() -> None:
+    session = Session()
+    items = (
+        ChoiceItem(id="k", text="Which?", answers=("maps", "puzzles"), other="else:"),
+        ScaleItem(id="s", text="How?", answers=("badly", "well")),
+    )
+    async with at(made(session, items), 120, 40) as (pilot, _):
+        await pilot.press("3", "x", "down")
+        assert answers(session) == {"k": 3, "k_other": "x"}
+        await pilot.press("up", "left")
+        await pilot.pause()
+    assert answers(session) == {"k": 2}

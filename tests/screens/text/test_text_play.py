@@ -144,6 +144,13 @@ def test_around_are_ways_doors_people_and_names(ward: Building, tmp_path: Path) 
     assert told[7].startswith("Seen before. A red victim: ")
 
 
+def test_who_comes_into_view_again_is_told_again(ward: Building, tmp_path: Path) -> None:
+    told = answers(ward, tmp_path, *["w"] * 3, *["e"] * 3, *["w"] * 3)
+    seen = [number for number, answer in enumerate(told) if "A red victim: " in answer]
+    assert len([number for number in seen if number < 3]) == 1
+    assert len([number for number in seen if number >= 6]) == 1
+
+
 def test_doors_are_told_as_they_are_passed(ward: Building, tmp_path: Path) -> None:
     told = answers(ward, tmp_path, "e 6", "w", "w door", "w door", "w end")
     assert told[0].startswith("6 steps east, through a door.")

@@ -51,6 +51,7 @@ LEAST: dict[tuple[str, str], float] = {
     ("seen-floor", "unseen"): GROUND,
     ("known-floor", "map-floor"): GROUND,
     ("map-wall", "map-floor"): GROUND,
+    ("map-door", "map-floor"): GROUND,
     ("wall", "seen-wall"): GROUND,
     ("door", "wall"): GROUND,
     ("known-door", "known-wall"): GROUND,

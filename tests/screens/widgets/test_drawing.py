@@ -8,6 +8,7 @@ from textwrap import wrap
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from rich.cells import cell_len
 from textual.app import App, ComposeResult
 
 from game.coach.acts import PosteriorEvaluated
@@ -85,6 +86,34 @@ def test_a_sentence_begins_on_a_row_of_its_own() -> None:
         "Walk forward 7 steps. Turn right.",
     ]
     assert wrap(told, 60)[0].endswith("Walk forward")
+
+
+@given(
+    st.lists(st.text("左右へ進む2", min_size=2, max_size=12), min_size=1, max_size=5),
+    st.integers(30, 90),
+)
+def test_sentences_without_blanks_between_keep_every_character(
+    text: list[str], columns: int
+) -> None:
+    told = "".join(f"{sentence}。" for sentence in text)
+    rows = sentences_in_rows(told, columns)
+    assert "".join(rows) == told
+    assert len(rows) <= len(wrapped(told, columns))
+    assert all(cell_len(row) <= columns for row in rows)
+
+
+def test_a_sentence_of_wide_characters_begins_on_a_row_of_its_own() -> None:
+    assert sentences_in_rows(
+        "左を向いてください。5歩前へ進んでください。右を向いてください。", 44
+    ) == [
+        "左を向いてください。5歩前へ進んでください。",
+        "右を向いてください。",
+    ]
+
+
+def test_german_keeps_its_blanks() -> None:
+    told = "Gehen Sie durch die vierte Tür rechts. Gehen Sie durch die fünfte Tür links."
+    assert " ".join(sentences_in_rows(told, 76)) == told
 
 
 def test_two_lines_at_80_columns_leave_the_bar_its_height() -> None:

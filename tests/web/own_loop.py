@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 Value = TypeVar("Value")
 
 
-class _Aside:
+class _OwnLoop:
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
         threading.Thread(target=self._loop.run_forever, daemon=True).start()
@@ -20,4 +20,4 @@ class _Aside:
         return asyncio.run_coroutine_threadsafe(work, self._loop).result(seconds)
 
 
-aside = _Aside()
+own_loop = _OwnLoop()
