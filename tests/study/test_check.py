@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 from game.cli import main
+from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
 from game.study.folder import Study, new_study, open_study
 from game.study.lab.readiness import shortfalls
@@ -39,12 +40,19 @@ def edit(folder: Path, name: str, before: str, after: str) -> Study:
     return open_study(folder)
 
 
-def test_a_new_study_is_well_and_pictured(
+def test_a_new_study_is_well(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "check", str(folder)]) == 0
+    assert "all is well" in capsys.readouterr().out
+    assert not (folder / "sessions").exists()
+
+
+@pytest.mark.slow
+def test_every_page_of_a_new_study_is_pictured(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "pictures"
     assert main(["study", "check", str(folder), "--pictures", str(out)]) == 0
-    assert "all is well" in capsys.readouterr().out
+    assert "pages" in capsys.readouterr().out
     pictures = sorted(out.glob("*.svg"))
     index = (out / "index.html").read_text(encoding="utf-8")
     assert len(pictures) >= 36
@@ -71,11 +79,18 @@ def test_words_that_cannot_be_seen_fail_it(
     assert "these words are cut off or hidden" in capsys.readouterr().err
 
 
-def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(folder: Path) -> None:
+def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(
+    folder: Path, tmp_path: Path
+) -> None:
     more = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
     study = edit(folder, "texts.toml", "You can now close this window.", f"{more}\n\nThe very end.")
     last = page(rehearsed(study), "Thank you for taking part")
     assert len(last.pictures) > 1
+    index = write_pictures([last], "Study", tmp_path / "pictures").read_text("utf-8")
+    for part in range(1, len(last.pictures) + 1):
+        assert f'src="01-{part}.svg"' in index
+        with Image.open(tmp_path / "pictures" / f"01-{part}.png") as drawn:
+            assert len(drawn.getcolors(1 << 24) or ()) > 2
     assert last.missing == ()
 
 

@@ -20,7 +20,10 @@ from tests.study.server import ANA
 from tests.web.chromium import CHROMIUM, Chromium
 from tests.web.served import Served
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed"),
+]
 PICTURES = os.environ.get("ANA_PICTURES", "")
 """A folder for pictures of every phase, where they are wanted."""
 P01 = Identity("live", "P01")
