@@ -90,7 +90,7 @@ def of_token(key: bytes, text: str) -> tuple[str, bool]:
     participant, *rest = text.split(".")
     pilot = rest[:1] == [_PILOT]
     genuine = token(key, participant, pilot=pilot)
-    if not compare_digest(genuine.encode(), text.encode()):
+    if not compare_digest(_bytes(genuine), _bytes(text)):
         raise LinkError("this link was not made for this study")
     return participant, pilot
 
@@ -123,4 +123,9 @@ def pseudonyms(folder: Path, panel_ids: Iterable[str]) -> frozenset[str]:
 
 
 def _mac(key: bytes, *parts: str) -> bytes:
-    return new(key, "\0".join(parts).encode(), sha256).digest()
+    return new(key, _bytes("\0".join(parts)), sha256).digest()
+
+
+def _bytes(text: str) -> bytes:
+    """UTF-8, also of half a character, as an address can hold it."""
+    return text.encode(errors="surrogatepass")

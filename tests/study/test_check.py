@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 from game.cli import main
+from game.screens.study import rehearsal
 from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
 from game.study.folder import Study, new_study, open_study
@@ -66,15 +67,21 @@ def test_every_page_of_a_new_study_is_pictured(
     assert not (folder / "sessions").exists()
 
 
+def test_the_servers_configuration_comes_with_what_is_wrong(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(rehearsal, "found_wrong", lambda _study: (["the page is cut"], []))
+    assert main(["study", "sshd", str(folder)]) == 0
+    told = capsys.readouterr()
+    assert "ForceCommand" in told.out
+    assert "the page is cut" in told.err
+
+
 def test_words_that_cannot_be_seen_fail_it(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
     edit(folder, "forms.toml", 'low = "', f'low = "{endless} ')
-    assert main(["study", "sshd", str(folder)]) == 0
-    told = capsys.readouterr()
-    assert "ForceCommand" in told.out
-    assert "these words are cut off or hidden" in told.err
     assert main(["study", "check", str(folder)]) == 2
     assert "these words are cut off or hidden" in capsys.readouterr().err
 

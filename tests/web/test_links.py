@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from game.study.folder import StudyError, admit_by_roster, identify
@@ -33,6 +33,7 @@ def test_a_link_says_whose_it_is(participant: str, pilot: bool) -> None:
         of_token(THEIRS, made)
 
 
+@example("P01", "P02", "\ud800")
 @given(ids, ids, st.text(alphabet=st.characters(), max_size=80))
 def test_nothing_else_is_a_link(participant: str, other: str, anything: str) -> None:
     name, signature = token(OURS, participant).split(".")

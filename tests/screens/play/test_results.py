@@ -189,6 +189,7 @@ async def test_the_card_is_copied_and_written(open_app: Open) -> None:
         assert (folder / "card.svg").read_text().startswith("<svg")
 
 
+@pytest.mark.slow
 async def test_what_was_reached_before_comes_up_by_itself(open_app: Open) -> None:
     for told in ("first full mission", "best 0"):
         async with open_app(duration_ms=1_000) as (_, pilot):
