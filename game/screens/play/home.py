@@ -243,7 +243,7 @@ class HomeScreen(Pointed, Screen[None]):
             latest = max(such, key=lambda it: it.at)
             told.append(f"best {top.rescued}, last time {latest.rescued}")
         if reader is not None:
-            told.append(f"a literal reader {reader}")
+            told.append(f"following every word: {reader}")
         return "; ".join(told)
 
     def _dwell(self) -> None:
