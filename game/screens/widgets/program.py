@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import sys
 import threading
 import time
 from collections.abc import Mapping
+from errno import EIO
 from traceback import format_exception
 from typing import ClassVar
 
@@ -84,7 +86,9 @@ class Program(App[None], inherit_bindings=False):
 
     def _heard(self, context: Mapping[str, object]) -> None:
         error = context.get("exception")
-        if isinstance(error, Exception):
+        if isinstance(error, OSError) and error.errno == EIO:
+            signal.raise_signal(signal.SIGHUP)  # the terminal is gone, and nobody has said so yet
+        elif isinstance(error, Exception):
             self._handle_exception(error)
 
     def _handle_exception(self, error: Exception) -> None:

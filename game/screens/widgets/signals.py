@@ -21,12 +21,16 @@ SIGNALS = (signal.SIGHUP, signal.SIGTERM)
 def lead_out(note: Callable[[str], None], leave: Callable[[int], None]) -> None:
     """From now on SIGHUP and SIGTERM end the program. Call it on the running event loop.
 
-    `note` records the signal, given its name; it runs in the handler, so at any moment. `leave`
-    ends the program with an exit status; it runs on the event loop, if that still runs.
+    `note` records the signal, given its name, once each; it runs in the handler, so at any moment.
+    `leave` ends the program with an exit status; it runs on the event loop, if that still runs.
     """
     loop = asyncio.get_running_loop()
+    heard: set[int] = set()
 
     def go(number: int, _frame: FrameType | None) -> None:
+        if number in heard:
+            return
+        heard.add(number)
         status = 128 + number
         signal.signal(signal.SIGALRM, lambda *_: os._exit(status))
         signal.setitimer(signal.ITIMER_REAL, PATIENCE_S)
