@@ -65,13 +65,17 @@ class Rehearsed:
     too_tall: dict[str, int]
 
 
+_ALL_COLOURS = {"TERM": "xterm-256color", "COLORTERM": "truecolor"}
+"""Pages are opened, and drawn for an ethics board, as the best of terminals shows them."""
+
+
 class Showing(Program, inherit_bindings=False):
     """A program that shows one page after another."""
 
     CSS_PATH: ClassVar[list[str | PurePath]] = StudyApp.CSS_PATH
 
     def __init__(self, look: Look) -> None:
-        super().__init__("dark", look)
+        super().__init__("dark", look, environ=_ALL_COLOURS)
 
     @asynccontextmanager
     async def opened(self, make: Make) -> AsyncIterator[Screen[Any]]:

@@ -34,9 +34,13 @@ class Program(App[None], inherit_bindings=False):
     ENABLE_COMMAND_PALETTE: ClassVar[bool] = False
 
     def __init__(
-        self, wanted: Ground | None = None, look: Look = LOOK, cells: Cells = "auto"
+        self,
+        wanted: Ground | None = None,
+        look: Look = LOOK,
+        cells: Cells = "auto",
+        environ: Mapping[str, str] = os.environ,
     ) -> None:
-        theme = theme_name(os.environ, wanted, look)
+        theme = theme_name(environ, wanted, look)
         self.look = look
         self.cells = cells
         super().__init__(
