@@ -37,7 +37,8 @@ from analysis.stats.comparison import (
 from analysis.stats.intervals import Interval
 
 _COLOURS = (BLUE, ORANGE, GREEN, VERMILION, INK)
-_MARKERS = ("o", "s", "^", "D", "v")
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+"""More than the colours by a number without a common divisor, so that no two coaches look alike."""
 _AS_SHIPPED = "as shipped"
 TOLD = (_AS_SHIPPED, "0", "16")
 """The points of the curve of switches that are named in it."""
@@ -341,23 +342,10 @@ def reliability_figure(comparison: Comparison) -> Captioned:
 def switches_figure(comparison: Comparison, world: str) -> Captioned:
     """Rescues against switches of every adaptive coach, by group."""
     with quiet_style():
-        figure = Figure(figsize=(TWO_COLUMNS, 3.2))
-        panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
-        for axes, group in zip(panels, KNOWLEDGE, strict=True):
-            axes.set_title(group)
-            cells = [c for c in comparison.cells if (c.world, c.group) == (world, group)]
-            for number, cell in enumerate(cells):
-                axes.plot(
-                    cell.switches,
-                    cell.rescues,
-                    _MARKERS[number % len(_MARKERS)],
-                    color=_COLOURS[number % len(_COLOURS)],
-                    label=cell.coach,
-                )
-            axes.set_xlabel("switches a mission")
-        panels[0].set_ylabel("rescued victims")
-        handles, names = panels[0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="upper right", ncols=4, fontsize=7)
+        figure, panels = _switch_panels(comparison, world)
+        for axes, cells in panels:
+            _mark(axes, cells, _MARKERS)
+        _name_coaches(figure)
         return captioned(
             "coaches-switches",
             figure,
@@ -373,18 +361,15 @@ def switching_figure(comparison: Comparison, world: str) -> Captioned:
     varied = {c.coach: c.switches for c in comparison.cells if _must_save(c.coach)}
     values = [_must_save(coach) for coach in sorted(varied, key=varied.__getitem__)]
     with quiet_style():
-        figure = Figure(figsize=(TWO_COLUMNS, 3.4), layout="constrained")
-        panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
-        for axes, group in zip(panels, KNOWLEDGE, strict=True):
-            axes.set_title(group)
-            cells = [c for c in comparison.cells if (c.world, c.group) == (world, group)]
+        figure, panels = _switch_panels(comparison, world)
+        for axes, cells in panels:
             curve = sorted((c for c in cells if _must_save(c.coach)), key=lambda c: c.switches)
             axes.errorbar(
                 [cell.switches for cell in curve],
                 [cell.rescues for cell in curve],
                 [_half(cell.rescues_interval) for cell in curve],
                 color=INK,
-                marker="o",
+                marker=_MARKERS[0],
                 label="knowledge",
             )
             for cell in (c for c in curve if _must_save(c.coach) in TOLD):
@@ -397,19 +382,8 @@ def switching_figure(comparison: Comparison, world: str) -> Captioned:
                     va="top",
                     fontsize=7,
                 )
-            others = [c for c in cells if not _must_save(c.coach)]
-            for number, cell in enumerate(others):
-                axes.plot(
-                    cell.switches,
-                    cell.rescues,
-                    _MARKERS[1 + number % (len(_MARKERS) - 1)],
-                    color=_COLOURS[number % len(_COLOURS)],
-                    label=cell.coach,
-                )
-            axes.set_xlabel("switches a mission")
-        panels[0].set_ylabel("rescued victims")
-        handles, names = panels[0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="outside lower center", ncols=5, fontsize=7)
+            _mark(axes, [c for c in cells if not _must_save(c.coach)], _MARKERS[1:])
+        _name_coaches(figure)
         return captioned(
             "coaches-switching",
             figure,
@@ -418,6 +392,38 @@ def switching_figure(comparison: Comparison, world: str) -> Captioned:
             f"level before it changes: {', '.join(values)}, from left to right.",
             simulated=True,
         )
+
+
+def _switch_panels(
+    comparison: Comparison, world: str
+) -> tuple[Figure, list[tuple[Axes, list[Cell]]]]:
+    """A figure with a panel of rescues against switches for each group, and the group's coaches."""
+    figure = Figure(figsize=(TWO_COLUMNS, 3.4), layout="constrained")
+    panels = np.ravel(figure.subplots(1, len(KNOWLEDGE), sharey=True, squeeze=False))
+    panels[0].set_ylabel("rescued victims")
+    found = []
+    for axes, group in zip(panels, KNOWLEDGE, strict=True):
+        axes.set_title(group)
+        axes.set_xlabel("switches a mission")
+        cells = [c for c in comparison.cells if (c.world, c.group) == (world, group)]
+        found.append((axes, cells))
+    return figure, found
+
+
+def _mark(axes: Axes, cells: Sequence[Cell], markers: Sequence[str]) -> None:
+    for number, cell in enumerate(cells):
+        axes.plot(
+            cell.switches,
+            cell.rescues,
+            markers[number % len(markers)],
+            color=_COLOURS[number % len(_COLOURS)],
+            label=cell.coach,
+        )
+
+
+def _name_coaches(figure: Figure) -> None:
+    handles, names = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower right", ncols=5, fontsize=7)
 
 
 def _must_save(coach: str) -> str:

@@ -26,6 +26,7 @@ from analysis.pages.coaches import (
     read_comparison,
     reliability_figure,
     switches_figure,
+    switching_figure,
 )
 from analysis.pages.figures import (
     adaptivity_estimates,
@@ -144,6 +145,7 @@ def test_every_figure_of_the_notebooks_is_whole(opened: Opened) -> None:
         comparison_figure(compared),
         level_shares_figure(compared, "default", ("ana", "knowledge")),
         switches_figure(compared, "default"),
+        switching_figure(read_comparison(SHIPPED / "switching.json"), "default"),
         reliability_figure(compared),
     ]
     assert [fault for one in drawn for fault in faults(one)] == []
@@ -153,6 +155,13 @@ def test_every_figure_of_the_notebooks_is_whole(opened: Opened) -> None:
     for one in drawn:
         if one.name.removeprefix("behaviour_") in levels:
             assert legend_labels(one.figure) >= set(COMPLEXITY), one.name
+
+
+def test_no_two_coaches_look_alike() -> None:
+    compared = read_comparison(SHIPPED / "coaches.json")
+    (legend,) = switches_figure(compared, "default").figure.legends
+    looks = {(str(line.get_marker()), str(line.get_color())) for line in legend.get_lines()}
+    assert len(looks) == len(legend.get_texts()) == len({cell.coach for cell in compared.cells})
 
 
 def test_a_legend_names_every_level_even_with_nobody_at_it(
