@@ -12,6 +12,7 @@ import signal
 import struct
 import termios
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -48,7 +49,7 @@ class Chunk(NamedTuple):
     data: bytes
 
 
-class Shown:
+class Shown(ABC):
     """What a program shows, wherever it runs: its output, emulated."""
 
     def __init__(self, columns: int, rows: int) -> None:
@@ -58,17 +59,13 @@ class Shown:
         self._fed = 0
         self._shown: str | None = None
 
+    @abstractmethod
     def press(self, *keys: str) -> None:
         """Type keys by name, or text as it is."""
-        raise NotImplementedError
 
+    @abstractmethod
     def read_for(self, seconds: float) -> bool:
         """Collect output for a while. False once the program has ended."""
-        raise NotImplementedError
-
-    def wait(self, seconds: float = 10) -> int:
-        """Read until the program ends, and return its exit status. Raises TimeoutError."""
-        raise NotImplementedError
 
     def wait_for(self, text: str, seconds: float = 15) -> str:
         """Read until `text` is on the screen, and return the screen. Raises TimeoutError."""
@@ -107,16 +104,24 @@ class Shown:
 class Watched(Shown):
     """A terminal that `select` can wait on."""
 
+    @abstractmethod
     def fileno(self) -> int:
         """What `select` waits on for output."""
-        raise NotImplementedError
 
+    @abstractmethod
     def take(self) -> bool:
         """Collect the output that is there, or wait for some. False once the program has ended."""
-        raise NotImplementedError
 
 
-class Terminal(Watched):
+class Ending(Shown):
+    """What a program shows until it ends, which can be waited for."""
+
+    @abstractmethod
+    def wait(self, seconds: float = 10) -> int:
+        """Read until the program ends, and return its exit status. Raises TimeoutError."""
+
+
+class Terminal(Watched, Ending):
     """`command` running in a terminal of its own, 256 colours unless `env` says otherwise.
 
     Use as a context manager: on leaving, the program is hung up on and reaped.

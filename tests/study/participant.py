@@ -42,7 +42,7 @@ from game.world.floodfill import cost_to_go
 from game.world.geometry import Cell
 from game.world.reading import parse_building
 from tests.study.people import towards
-from tests.terminal import Shown
+from tests.terminal import Ending
 
 PATIENCE_S = 60.0
 """How long anything may take on a busy machine."""
@@ -150,7 +150,7 @@ class TerminalParticipant:
     """A participant logged in at `terminal`. Each method waits for its own screen and returns when
     the next one is up; any of them raises TimeoutError, with the screen."""
 
-    def __init__(self, terminal: Shown, study: Study, identity: Identity) -> None:
+    def __init__(self, terminal: Ending, study: Study, identity: Identity) -> None:
         self.terminal = terminal
         self.study = study
         self.identity = identity

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from tests.terminal import Chunk, Shown
+from tests.terminal import Chunk, Ending
 from tests.web.client import COLUMNS, ROWS
 from tests.web.own_loop import own_loop
 
@@ -32,7 +32,7 @@ _KEYS = {
 }
 
 
-class Tab(Shown):
+class Tab(Ending):
     """A tab of the browser. Its terminal is what the latest websocket brought."""
 
     def __init__(self, page: Page) -> None:

@@ -10,7 +10,7 @@ from contextlib import suppress
 
 import aiohttp
 
-from tests.terminal import KEYS, Chunk, Shown
+from tests.terminal import KEYS, Chunk, Ending
 from tests.web.own_loop import own_loop
 
 TAB = "abcdefgh"
@@ -30,7 +30,7 @@ def get(address: str, **headers: str) -> tuple[int, str, dict[str, str]]:
     return own_loop.run(fetch())
 
 
-class WebTerminal(Shown):
+class WebTerminal(Ending):
     """A line to a server, and the terminal at its end. Use as a context manager.
 
     Raises aiohttp.WSServerHandshakeError, with its status, where the server refuses it.
