@@ -11,6 +11,7 @@ from statistics import quantiles
 
 from game.coach.acts import CoachRecord, GoalSet
 from game.coach.api import Briefing, Coach
+from game.coach.listening import ListenedCoach
 from game.coach.spec import CoachSpec, build_coach, parse_coach
 from game.commands.ana_play import DEFAULT_BUILDING, assigned
 from game.rescuers.catalogue import character
@@ -22,7 +23,7 @@ from game.world.building import Building
 from game.world.events import Action, MissionEvent
 from game.world.floodfill import Floodfills
 from game.world.generation.office import generated
-from game.world.observation import Guidance, Observation
+from game.world.observation import Observation
 from game.world.route import RoutePlanner
 from game.world.settings import MissionSettings
 
@@ -36,34 +37,23 @@ KEY_OF = {
 }
 
 
-class TimedCoach:
+class TimedCoach(ListenedCoach):
     """A coach whose answers are timed: those that plan a route apart from all others."""
 
     def __init__(self, spec: CoachSpec, briefing: Briefing) -> None:
-        self._coach: Coach = build_coach(spec, briefing)
+        super().__init__(build_coach(spec, briefing))
         self.steps_ms: list[float] = []
         self.plans_ms: list[float] = []
 
-    @property
-    def guidance(self) -> Guidance:
-        return self._coach.guidance
-
-    @property
-    def next_evaluation_ms(self) -> int | None:
-        return self._coach.next_evaluation_ms
-
-    def begin(self, observation: Observation) -> list[CoachRecord]:
-        return self._coach.begin(observation)
-
     def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         start = time.perf_counter()
-        records = self._coach.on_event(event, observation)
+        records = super().on_event(event, observation)
         self._note(start, records)
         return records
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
         start = time.perf_counter()
-        records = self._coach.evaluate(at_ms, observation)
+        records = super().evaluate(at_ms, observation)
         self._note(start, records)
         return records
 

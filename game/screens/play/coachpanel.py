@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from game.coach.acts import ChoiceReason, CoachRecord, KnowledgeJudged, PosteriorEvaluated
 from game.coach.api import Briefing, Coach
+from game.coach.listening import ListenedCoach
 from game.coach.registry import KINDS
 from game.coach.spec import CoachSpec, build_coach
 from game.journal.thoughts import Thoughts
@@ -16,7 +17,7 @@ from game.screens.widgets.minimap import Pin
 from game.world.building import Building, VictimSite
 from game.world.events import MissionEvent
 from game.world.geometry import Cell
-from game.world.observation import Guidance, Observation
+from game.world.observation import Observation
 from game.world.picture import VICTIM_SIGNS
 
 _STEPS = (0.05, 0.2, 0.4, 0.7)
@@ -36,11 +37,11 @@ BAR_COLUMNS = 12
 """The longest bar of an expected time."""
 
 
-class OverheardCoach:
+class OverheardCoach(ListenedCoach):
     """A coach whose records are kept as `thoughts`, for a panel beside a live mission."""
 
     def __init__(self, coach: Coach, spec: CoachSpec) -> None:
-        self._coach = coach
+        super().__init__(coach)
         self.spec = spec
         self.thoughts = Thoughts()
 
@@ -48,22 +49,14 @@ class OverheardCoach:
     def build(cls, spec: CoachSpec, briefing: Briefing) -> OverheardCoach:
         return cls(build_coach(spec, briefing), spec)
 
-    @property
-    def guidance(self) -> Guidance:
-        return self._coach.guidance
-
-    @property
-    def next_evaluation_ms(self) -> int | None:
-        return self._coach.next_evaluation_ms
-
     def begin(self, observation: Observation) -> list[CoachRecord]:
-        return self._heard(self._coach.begin(observation))
+        return self._heard(super().begin(observation))
 
     def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
-        return self._heard(self._coach.on_event(event, observation))
+        return self._heard(super().on_event(event, observation))
 
     def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
-        return self._heard(self._coach.evaluate(at_ms, observation))
+        return self._heard(super().evaluate(at_ms, observation))
 
     def _heard(self, records: list[CoachRecord]) -> list[CoachRecord]:
         for record in records:

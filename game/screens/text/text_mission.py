@@ -11,6 +11,7 @@ from typing import assert_never
 
 from game.coach.acts import CoachRecord
 from game.coach.api import Briefing, Coach
+from game.coach.listening import ListenedCoach
 from game.coach.spec import CoachSpec, build_coach
 from game.journal.writer import Journal
 from game.rescuers.literal.grammar import Landmark
@@ -72,34 +73,20 @@ _WARNED_MS = (180_000, 120_000, 60_000, 30_000, 10_000)
 _ARTICLES: dict[Landmark, str] = {"door": "a door", "intersection": "an intersection"}
 
 
-class HeardEvents:
+class HeardEvents(ListenedCoach):
     """A coach beside whom the mission's events are kept until somebody takes them."""
 
     def __init__(self, coach: Coach) -> None:
-        self._coach = coach
+        super().__init__(coach)
         self._events: list[MissionEvent] = []
 
     @classmethod
     def build(cls, spec: CoachSpec, briefing: Briefing) -> HeardEvents:
         return cls(build_coach(spec, briefing))
 
-    @property
-    def guidance(self) -> Guidance:
-        return self._coach.guidance
-
-    @property
-    def next_evaluation_ms(self) -> int | None:
-        return self._coach.next_evaluation_ms
-
-    def begin(self, observation: Observation) -> list[CoachRecord]:
-        return self._coach.begin(observation)
-
     def on_event(self, event: MissionEvent, observation: Observation) -> list[CoachRecord]:
         self._events.append(event)
-        return self._coach.on_event(event, observation)
-
-    def evaluate(self, at_ms: int, observation: Observation) -> list[CoachRecord]:
-        return self._coach.evaluate(at_ms, observation)
+        return super().on_event(event, observation)
 
     @property
     def anything(self) -> bool:
