@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from analysis.report import summary
-from analysis.sources.absent import Absent, Leaf, Plain, Row, Tree, attempt, plain
-from analysis.sources.factors import ALIGNED, COMPLEXITY, KNOWLEDGE
+from analysis.sources.absent import Absent, Leaf, Plain, Refusal, Row, Tree, attempt, plain
+from analysis.sources.factors import ADAPTIVITY, ALIGNED, COMPLEXITY
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.sources.provenance import Provenance, provenance
 from analysis.sources.samples import left_by
@@ -127,6 +127,8 @@ def run_battery(
             "exclusion_rule": rules.main().name,
             "alpha_level": alpha,
             "groups": "stated" if sample.study.has("knowledge") else "formed from quiz_static",
+            "instructors": dict(zip(ADAPTIVITY, study.crossed.words, strict=True)),
+            "static_levels": list(study.crossed.levels),
         },
         "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
         "alpha": alpha_rows(study, alpha),
@@ -147,10 +149,12 @@ def run_battery(
                 outcome: attempt(continuous_rows, study, outcome) for outcome in study.outcomes
             },
         },
-        "power": power_rows(group_shares(study)),
+        "power": power_rows(group_shares(study))
+        if study.crossed.levels == COMPLEXITY
+        else Absent("it is computed for three static levels; `ana study design` has this design's"),
     }
     problems = tuple(_problems(study, clustering, anovas))
-    notes += why_they_differ(tests, alpha)
+    notes += why_they_differ(tests, alpha, study.crossed)
     values, reasons = plain(tree)
     if not isinstance(values, dict):
         raise TypeError("the results are not a mapping")
@@ -182,7 +186,7 @@ def outcome_rows(
         rows |= {"n": len(pair.participants), "n_dropped": pair.n_dropped}
         rows |= {name: make(models) for name, make in BY_CELL.items()}
         rows |= {
-            "alignment": alignment_rows(models),
+            "alignment": attempt(alignment_rows, models),
             "assumptions": assumption_rows(pair),
             "hc3_diff": attempt(hc3_rows, pair),
         }
@@ -193,14 +197,13 @@ def outcome_rows(
 
 
 def alignment_rows(models: RoundModels) -> list[Row]:
-    """Aligned (LOW-C1, MED-C2, HIGH-C3) less the other six cells, in each round and between."""
-    others = [
-        (group, level)
-        for group in KNOWLEDGE
-        for level in COMPLEXITY
-        if (group, level) not in ALIGNED
-    ]
-    weights = weights_of(ALIGNED) - weights_of(others)
+    """Aligned (LOW-C1, MED-C2, HIGH-C3, as far as there are these levels) less the other cells, in
+    each round and between. Raises Refusal where there is one static level."""
+    if len(models.levels) < 2:
+        raise Refusal("one static level, so knowledge and level cannot be aligned")
+    aligned = [cell for cell in ALIGNED if cell in models.mean.cells]
+    others = [cell for cell in models.mean.cells if cell not in ALIGNED]
+    weights = weights_of(aligned) - weights_of(others)
     rows: list[Row] = []
     for name, model in (*models.by_round(), ("adaptive - static", models.difference)):
         contrast = model.contrast(weights)
@@ -218,13 +221,18 @@ def alignment_rows(models: RoundModels) -> list[Row]:
 def holm_across(anovas: Mapping[str, list[Effect] | Absent]) -> dict[str, dict[str, PValue]]:
     """Holm over the outcomes, effect by effect; an outcome without ANOVA does not count."""
     by_effect: dict[str, dict[str, PValue]] = {}
-    for index, effect in enumerate(EFFECTS):
+    for effect in EFFECTS:
         family: dict[str, PValue] = {
-            state: rows if isinstance(rows, Absent) else rows[index].test.p
+            state: rows if isinstance(rows, Absent) else _p_of(rows, effect)
             for state, rows in anovas.items()
         }
         by_effect[effect] = holm_by_name(family)
     return by_effect
+
+
+def _p_of(rows: list[Effect], effect: str) -> PValue:
+    found = (row.test.p for row in rows if row.effect == effect)
+    return next(found, Absent("the design has one static level"))
 
 
 def analyse_source(

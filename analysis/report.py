@@ -1,9 +1,11 @@
 """The battery's results as text for a terminal."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from analysis.sources.absent import Plain
+from analysis.sources.designs import Crossed
+from analysis.sources.factors import ADAPTIVITY
 from analysis.sources.frames import StudyData
 from analysis.stats.apa import bounded, p_value
 
@@ -17,16 +19,18 @@ def summary(
     """
     numbers: Mapping[str, Any] = results
     source = numbers["source"]
+    first, second = study.crossed.words
     lines = [
         f"{study.label}: {source['n_analysed']} analysed of {source['n_randomised']} participants"
         + (" - SIMULATED PEOPLE" if study.simulated else ""),
         f"knowledge groups: {source['groups']}{_sizes(numbers['clustering'])}",
-        f"Cronbach's alpha of the four preference items: {_number(_alpha(numbers))}",
+        f"compared: {second} with {first}{_levels(study.crossed)}",
+        *_alphas(numbers["composites"]),
         "",
     ]
     for outcome, rows in numbers["outcomes"].items():
         lines += [
-            *_outcome(outcome, rows, numbers["holm_across_mental_states"], source["alpha_level"]),
+            *_outcome(outcome, rows, numbers, study.crossed),
             "",
         ]
     lines += [f"problem: {problem}" for problem in problems]
@@ -42,14 +46,21 @@ def _sizes(clustering: Mapping[str, Any] | None) -> str:
     return f"; by the scores {sizes}, cut at {low:g} and {high:g}"
 
 
-def _alpha(numbers: Mapping[str, Any]) -> float | None:
-    value: float | None = numbers["alpha"]["all"]["listwise"]
-    return value
+def _levels(crossed: Crossed) -> str:
+    return f"; static levels {', '.join(crossed.levels)}" if len(crossed.levels) > 1 else ""
+
+
+def _alphas(composites: Mapping[str, Any]) -> Iterator[str]:
+    """Cronbach's alpha of every composite."""
+    for name, row in composites.items():
+        items = len(row["items"])
+        yield f"Cronbach's alpha of {name} ({items} items): {_number(row['alpha'])}"
 
 
 def _outcome(
-    outcome: str, rows: Mapping[str, Any], holm: Mapping[str, Any], alpha: float
+    outcome: str, rows: Mapping[str, Any], numbers: Mapping[str, Any], crossed: Crossed
 ) -> list[str]:
+    holm = numbers["holm_across_mental_states"]
     lines = [f"{outcome}  (n = {rows['n']}, {rows['n_dropped']} without both rounds or a group)"]
     if rows["anova"] is None:
         lines.append("  no ANOVA; see the problems below")
@@ -58,11 +69,11 @@ def _outcome(
             f"  {'effect':<33}{'df':>6}{'F':>9}{'p':>7}{'p Holm':>8}{'eta_p':>7}{'eta_g':>7}"
         )
         lines += [_anova_line(outcome, row, holm) for row in rows["anova"][1:]]
-    lines += _comparisons(rows, alpha)
+    lines += _comparisons(rows, numbers["source"]["alpha_level"], crossed)
     if rows["paired"] is not None:
         paired = rows["paired"]
         lines.append(
-            f"  adaptive - static: {paired['mean_diff']:+.2f} (d_z {paired['dz']:+.2f}), TOST p "
+            f"  {crossed.gap}: {paired['mean_diff']:+.2f} (d_z {paired['dz']:+.2f}), TOST p "
             f"{p_value(paired['tost_p'])}, BF10 {_number(paired['bf10_jzs_r0707'])}"
         )
     return lines
@@ -77,14 +88,15 @@ def _anova_line(outcome: str, row: Mapping[str, Any], holm: Mapping[str, Any]) -
     )
 
 
-def _comparisons(rows: Mapping[str, Any], alpha: float) -> list[str]:
+def _comparisons(rows: Mapping[str, Any], alpha: float, crossed: Crossed) -> list[str]:
     """Comparisons of the paper's Figs. 7 and 9 that stay below alpha after Holm."""
+    words = dict(zip(ADAPTIVITY, crossed.words, strict=True))
     within = [
-        (f"{row['knowledge']}, {row['adaptivity']}", row)
+        (f"{row['knowledge']}, {words[row['adaptivity']]}", row)
         for row in rows["posthoc_complexity_within_knowledge_by_round"] or ()
     ]
     between = [
-        (f"adaptive - static at {row['complexity']}", row)
+        (f"{crossed.gap}{_at(row, crossed)}", row)
         for row in rows["posthoc_diff_knowledge_within_complexity"] or ()
     ]
     return [
@@ -92,6 +104,10 @@ def _comparisons(rows: Mapping[str, Any], alpha: float) -> list[str]:
         for where, row in (*within, *between)
         if row["p_holm"] is not None and row["p_holm"] < alpha
     ]
+
+
+def _at(row: Mapping[str, Any], crossed: Crossed) -> str:
+    return f" at {row['complexity']}" if len(crossed.levels) > 1 else ""
 
 
 def _number(value: float | None) -> str:

@@ -34,7 +34,7 @@ from analysis.sources.factors import (
 from analysis.sources.frames import Floats, Paired, StudyData, paired
 from analysis.stats.adaptivity import overall
 from analysis.stats.apa import bounded, p_words
-from analysis.stats.cellmodel import CELLS, weights_of
+from analysis.stats.cellmodel import CELLS, cell_words, weights_of
 from analysis.stats.equivalence import BOUND_SDS
 from analysis.stats.level import ALPHA, percent
 from analysis.stats.posthoc import (
@@ -50,13 +50,15 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """Mental states in the static round by knowledge group and static level (Fig. 7).
 
     Points, means and comparisons are of the same people, those of the ANOVA. Raises Refusal where
-    the study asks for none, or has no groups.
+    the study asks for none, has no groups, or has one static level.
     """
     study.need_groups()
     if not study.asked.mental_states:
         raise Refusal("the study asks for no mental states")
+    if len(study.crossed.levels) < 2:
+        raise Refusal("the study has one static level, so there is none to compare it with")
     with quiet_style():
-        states = study.asked.mental_states
+        states, levels = study.asked.mental_states, study.crossed.levels
         down = -(-len(states) // 2)
         figure = Figure(figsize=(TWO_COLUMNS, 0.6 + 2.8 * down))
         panels = figure.subplots(down, 2, sharey=True, squeeze=False).ravel()
@@ -69,8 +71,9 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
             axes.set_title(state)
             axes.set_ylim(least - 4 * unit, most + 40 * unit)
             for group, level in ALIGNED:
-                _shade(axes, KNOWLEDGE.index(group) + OFFSETS[level], 0.11)
-            for level in COMPLEXITY:
+                if level in levels:
+                    _shade(axes, KNOWLEDGE.index(group) + OFFSETS[level], 0.11)
+            for level in levels:
                 for at, group in enumerate(KNOWLEDGE):
                     _mean_and_se(
                         axes,
@@ -87,12 +90,12 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
         for axes in panels[::2]:
             axes.set_ylabel("answer (mean \u00b1 SE)")
         for axes in panels[-2:]:
-            axes.set_xlabel("knowledge group; n at C1, C2, C3")
+            axes.set_xlabel(f"knowledge group; n at {', '.join(levels)}")
         figure.legend(
             handles=[
                 Line2D([], [], color=LEVEL_COLOURS[level], marker=LEVEL_MARKERS[level],
                        linestyle="none", label=level)
-                for level in COMPLEXITY
+                for level in levels
             ],
             title="static level",
             loc="outside upper right",
@@ -102,12 +105,11 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
         return captioned(
             "fig7_mental_states",
             figure,
-            "Mental states after the static round: see whether each knowledge group answers best "
-            "at its own level (shaded). Points are people with both rounds, the people of the "
-            "ANOVA; n is given for C1, C2 and C3. Large symbols are means, error bars one standard "
-            "error (none for one person); brackets are comparisons within a group with "
-            "Holm-adjusted p below "
-            f"{bounded(alpha, 2)}.",
+            f"Mental states after the {study.crossed.words[0]} round: see whether each knowledge "
+            "group answers best at its own level (shaded). Points are people with both rounds, the "
+            f"people of the ANOVA; n is given for {_listed(levels)}. Large symbols are means, "
+            "error bars one standard error (none for one person); brackets are comparisons within "
+            f"a group with Holm-adjusted p below {bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
 
@@ -118,7 +120,8 @@ def fig8_performance(study: StudyData) -> Captioned:
         figure = Figure(figsize=(TWO_COLUMNS, 3.4))
         panels = np.ravel(figure.subplots(1, 2, sharey=True))
         pair = paired(study, "victims")
-        rounds = {"adaptive": pair.adaptive, "static": pair.static}
+        first, second = study.crossed.words
+        rounds = {second: pair.adaptive, first: pair.static}
         for axes, (name, values) in zip(panels, rounds.items(), strict=True):
             axes.set_title(name)
             ticks = []
@@ -146,15 +149,17 @@ def fig9_adaptivity(
 ) -> Captioned:
     """adaptive - static of one outcome by static level and knowledge group (Fig. 9)."""
     with quiet_style():
+        levels, gap = study.crossed.levels, study.crossed.gap
         figure = Figure(figsize=(TWO_COLUMNS, 3.6))
-        panels = np.ravel(figure.subplots(1, 3, sharey=True))
+        panels = np.ravel(figure.subplots(1, len(levels), sharey=True, squeeze=False))
         pair = paired(study, outcome)
         comparisons = difference_knowledge_within_complexity(RoundModels.of(pair))
-        for axes, level in zip(panels, COMPLEXITY, strict=True):
-            axes.set_title(f"static {level}")
+        for axes, level in zip(panels, levels, strict=True):
+            axes.set_title(f"static {level}" if len(levels) > 1 else "")
             axes.axhline(0, color=INK, linewidth=0.8)
             aligned = next(group for group, own in ALIGNED if own == level)
-            _shade(axes, KNOWLEDGE.index(aligned), 0.35)
+            if len(levels) > 1:
+                _shade(axes, KNOWLEDGE.index(aligned), 0.35)
             ticks = []
             for at, group in enumerate(KNOWLEDGE):
                 values = pair.difference[_inside(pair, group, level)]
@@ -165,16 +170,21 @@ def fig9_adaptivity(
             axes.set_xlim(-0.6, len(KNOWLEDGE) - 0.4)
         reach = max([1.0, *np.abs(pair.difference)])
         panels[0].set_ylim(-1.05 * reach, 1.05 * reach)
-        _group_brackets(panels, alpha, comparisons)
-        panels[0].set_ylabel(f"{outcome}: adaptive - static (mean \u00b1 SE)")
-        panels[1].set_xlabel("knowledge group")
+        _group_brackets(panels, levels, alpha, comparisons)
+        panels[0].set_ylabel(f"{outcome}: {gap} (mean \u00b1 SE)")
+        panels[len(levels) // 2].set_xlabel("knowledge group")
+        see = (
+            "people whose static level did not fit their knowledge gain (up, blue) and the aligned "
+            "(shaded) lose (down, red)"
+            if len(levels) > 1
+            else "the groups gain (up, blue) or lose (down, red)"
+        )
         return captioned(
             f"fig9_{outcome}",
             figure,
-            f"Gain in {outcome} with the adaptive instructor: see whether people whose static "
-            "level did not fit their knowledge gain (up, blue) and the aligned (shaded) lose "
-            "(down, red). Points are people, large symbols means, error bars one standard error; "
-            "brackets are comparisons within a level with Holm-adjusted p below "
+            f"Gain in {outcome} with the {study.crossed.words[1]} instructor: see whether {see}. "
+            "Points are people, large symbols means, error bars one "
+            "standard error; brackets are comparisons within a level with Holm-adjusted p below "
             f"{bounded(alpha, 2)}.",
             simulated=study.simulated,
         )
@@ -183,8 +193,8 @@ def fig9_adaptivity(
 def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """adaptive - static of every outcome in standard deviations of its static round.
 
-    The nine cells count equally, as in the ANOVA's test; without knowledge groups or with an empty
-    cell people count equally, and the label says so.
+    The analysis cells count equally, as in the ANOVA's test; without knowledge groups or with an
+    empty cell people count equally, and the label says so.
     """
     outer, inner = 1 - alpha, 1 - 2 * alpha
     thin, thick = percent(outer), percent(inner)
@@ -214,31 +224,37 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
         axes.set_yticks(range(len(study.outcomes)), labels)
         axes.set_ylim(len(study.outcomes) - 0.5, -0.5)
         axes.set_xlim(-1.08 * reach, 1.08 * reach)
-        axes.set_xlabel(f"adaptive - static, in SD of static\n(CI {thick} thick, {thin} thin)")
+        first = study.crossed.words[0]
+        axes.set_xlabel(f"{study.crossed.gap}, in SD of {first}\n(CI {thick} thick, {thin} thin)")
         return captioned(
             "adaptivity_estimates",
             figure,
             f"Overall effect of adaptivity with {thick} (thick) and {thin} (thin) confidence "
             "intervals: a thick interval inside the grey band is equivalent to none at half a "
-            "standard deviation, a thin one that misses zero is a difference. The nine cells of "
-            "knowledge and level count equally, as in the ANOVA's test of adaptivity.",
+            "standard deviation, a thin one that misses zero is a difference. The "
+            f"{cell_words(study.crossed.levels)} of knowledge and level count equally, as in the "
+            "ANOVA's test of adaptivity.",
             simulated=study.simulated,
         )
 
 
 def cells_figure(study: StudyData, outcome: str, alpha: float = ALPHA) -> Captioned:
-    """Everybody's answer in the nine cells, in each round, with estimated means."""
+    """Everybody's answer in the analysis cells, in each round, with estimated means."""
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 4.4))
-        panels = figure.subplots(2, 3, sharey=True)
+        panels = figure.subplots(2, len(KNOWLEDGE), sharey=True)
+        levels = study.crossed.levels
+        several = len(levels) > 1
+        by = "knowledge group, static level" if several else "knowledge group"
+        words = dict(zip(ADAPTIVITY, study.crossed.words, strict=True))
         shown: list[float] = []
         pair = paired(study, outcome)
         rounds = dict(zip(ADAPTIVITY, (pair.static, pair.adaptive), strict=True))
         for row, (name, model) in zip(panels, RoundModels.of(pair).by_round(), strict=True):
             for axes, group in zip(row, KNOWLEDGE, strict=True):
-                axes.set_title(f"{group}, {name}")
+                axes.set_title(f"{group}, {words[name]}")
                 ticks = []
-                for at, level in enumerate(COMPLEXITY):
+                for at, level in enumerate(levels):
                     values = rounds[name][_inside(pair, group, level)]
                     half = model.contrast(weights_of([(group, level)])).half_width(1 - alpha)
                     bar = None if isinstance(half, Absent) else half
@@ -248,21 +264,21 @@ def cells_figure(study: StudyData, outcome: str, alpha: float = ALPHA) -> Captio
                     shown += values.tolist()
                     if len(values) > 1 and bar is not None:
                         shown += [float(values.mean()) - bar, float(values.mean()) + bar]
-                    ticks.append(f"{level}\nn = {len(values)}")
-                axes.set_xticks(range(len(COMPLEXITY)), ticks)
-                axes.set_xlim(-0.5, len(COMPLEXITY) - 0.5)
+                    ticks.append(f"{level}\nn = {len(values)}" if several else f"n = {len(values)}")
+                axes.set_xticks(range(len(levels)), ticks)
+                axes.set_xlim(-0.5, len(levels) - 0.5)
         low, high = min(shown, default=0.0), max(shown, default=1.0)
         margin = max(0.06 * (high - low), 0.5)
         panels[0, 0].set_ylim(low - margin, high + margin)
         for axes in panels[:, 0]:
             axes.set_ylabel(f"{outcome} (mean, {percent(1 - alpha)} CI)")
         for axes in panels[1]:
-            axes.set_xlabel("static level")
+            axes.set_xlabel("static level" if several else "")
         return captioned(
             f"cells_{outcome}",
             figure,
-            f"Every answer for {outcome} by knowledge group, static level and round: see how far "
-            "the people of a cell spread about its mean. Points are people with both rounds, large "
+            f"Every answer for {outcome} by {by} and round: see how far the people of a cell "
+            "spread about its mean. Points are people with both rounds, large "
             f"symbols cell means, error bars {percent(1 - alpha)} confidence intervals from the "
             "round's pooled error.",
             simulated=study.simulated,
@@ -278,7 +294,7 @@ def figures_of(study: StudyData, alpha: float = ALPHA) -> list[Captioned]:
         return [adaptivity_estimates(study, alpha)]
     states = study.asked.mental_states
     return [
-        *([fig7_mental_states(study, alpha)] if states else []),
+        *([fig7_mental_states(study, alpha)] if states and len(study.crossed.levels) > 1 else []),
         fig8_performance(study),
         *([fig9_adaptivity(study, first_state(study), alpha)] if states else []),
         adaptivity_estimates(study, alpha),
@@ -307,8 +323,14 @@ def _inside(pair: Paired, group: str, level: str) -> NDArray[np.bool_]:
     return np.equal(pair.cell, CELLS.index((group, level)))
 
 
+def _listed(words: tuple[str, ...]) -> str:
+    """ "C1, C2 and C3"."""
+    *first, last = words
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def _with_n(pair: Paired, group: str) -> str:
-    counts = [np.count_nonzero(_inside(pair, group, level)) for level in COMPLEXITY]
+    counts = [np.count_nonzero(_inside(pair, group, level)) for level in pair.levels]
     return f"{group}\nn = {', '.join(map(str, counts))}"
 
 
@@ -401,16 +423,19 @@ def _level_brackets(axes: Axes, alpha: float, comparisons: list[Row]) -> None:
 
 
 def _group_brackets(
-    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]", alpha: float, rows: list[Row]
+    panels: "np.ndarray[tuple[int], np.dtype[np.object_]]",
+    levels: tuple[str, ...],
+    alpha: float,
+    rows: list[Row],
 ) -> None:
     low, high = panels[0].get_ylim()
     step = 0.09 * (high - low)
-    heights = dict.fromkeys(COMPLEXITY, high)
+    heights = dict.fromkeys(levels, high)
     for row in rows:
         text = _significant(row, alpha)
         level = str(row["complexity"])
         if text:
             one, other = (KNOWLEDGE.index(name) for name in str(row["contrast"]).split(" - "))
-            bracket(panels[COMPLEXITY.index(level)], one, other, heights[level], text)
+            bracket(panels[levels.index(level)], one, other, heights[level], text)
             heights[level] += step
     panels[0].set_ylim(low, max([high, *heights.values()]) + step)

@@ -47,6 +47,7 @@ from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.apa import DASH, MINUS, bounded, decimal, p_value, share
+from analysis.stats.cellmodel import cell_words
 from analysis.stats.level import percent
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.robust import PERMUTATIONS
@@ -109,18 +110,21 @@ def manuscript(found: Found) -> list[Section]:
     number = 0
     for make in PARTS:
         title, sentences, tables, figures = make(found)
+        if mapping := found.study.crossed.mapping:
+            sentences = [f"In this section {mapping}.", *sentences]
         numbered = []
         for table in tables:
             number += 1
-            numbered.append(_labelled(table, found.study.simulated).numbered(number))
+            numbered.append(_labelled(table, found.study).numbered(number))
         sections.append(Section(title, tuple(sentences), tuple(numbered), tuple(figures)))
     return sections
 
 
-def _labelled(table: ApaTable, simulated: bool) -> ApaTable:
-    if not simulated:
-        return table
-    note = f"{SIMULATED}. {table.note}".strip()
+def _labelled(table: ApaTable, study: StudyData) -> ApaTable:
+    """The table with what a reader must know of all of it in its note."""
+    told = [SIMULATED] if study.simulated else []
+    told += [study.crossed.mapping] if study.crossed.mapping else []
+    note = " ".join([*(f"{one}." for one in told), table.note]).strip()
     return ApaTable(table.name, table.title, table.columns, table.rows, note)
 
 
@@ -248,8 +252,9 @@ def mental_states(found: Found) -> Part:
     )  # fmt: skip
     note = (
         "*p* is unadjusted; Holm adjusts over the three comparisons of a group. *d* is the "
-        "difference over the pooled standard deviation of the nine cells. The paper does not say "
-        "whether its *p* is adjusted."
+        "difference over the pooled standard deviation of the "
+        f"{cell_words(found.study.crossed.levels)}. The paper does not say whether its *p* is "
+        "adjusted."
     )
     every = [
         (state, row["knowledge"], row["contrast"].replace("-", MINUS), *_contrast_cells(row))
@@ -527,7 +532,8 @@ def preference(found: Found) -> Part:
                 "counted.",
             )
         )  # fmt: skip
-        figures.append(preferred_figure(chosen, simulated=found.study.simulated, alpha=found.alpha))
+        simulated, second = found.study.simulated, found.study.crossed.words[1]
+        figures.append(preferred_figure(chosen, second, simulated=simulated, alpha=found.alpha))
     return "Preference (sections 5.3 and 5.5)", sentences, tables, figures
 
 
@@ -544,7 +550,7 @@ def robustness(found: Found) -> Part:
              p_value(row["p"]))
             for row in own["adaptivity_tests"] or ()
         ]  # fmt: skip
-    sentences += [f"Note: {note}." for note in numbers["notes"] if "count the nine" in note]
+    sentences += [f"Note: {note}." for note in numbers["notes"] if note.startswith("tests of ")]
     for rule in numbers["sensitivity"]["exclusions"]:
         for outcome in found.study.outcomes:
             rows = (rule["results"] or {}).get(outcome) or ()

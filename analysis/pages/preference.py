@@ -28,6 +28,8 @@ STATEMENTS = dict(
 
 def statements_figure(study: StudyData) -> Captioned:
     """How each statement was answered after either instructor."""
+    first, second = study.crossed.words
+    words = dict(zip(ADAPTIVITY, study.crossed.words, strict=True))
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 3.4))
         panels = np.ravel(figure.subplots(1, len(LIKERT_ITEMS), sharey=True))
@@ -38,21 +40,23 @@ def statements_figure(study: StudyData) -> Captioned:
                 answers = study.rounds.loc[study.rounds["adaptivity"] == name, item].dropna()
                 shares = [float((answers == point).mean()) if len(answers) else 0.0
                           for point in POINTS]  # fmt: skip
-                axes.bar(np.array(POINTS) + shift, shares, 0.38, color=colour, label=name)
+                axes.bar(np.array(POINTS) + shift, shares, 0.38, color=colour, label=words[name])
             axes.set_xticks(POINTS)
         panels[0].set_ylabel("share of answers")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
         return captioned(
             "preference_statements",
             figure,
-            "The four statements after the static (orange) and the adaptive (blue) instructor: "
+            f"The four statements after the {first} (orange) and the {second} (blue) instructor: "
             "see whether one colour stands farther to the right.",
             simulated=study.simulated,
         )
 
 
-def preferred_figure(rows: Row | Absent, *, simulated: bool, alpha: float = ALPHA) -> Captioned:
-    """The share who preferred the adaptive instructor; `rows` are those of `preferred_rows`."""
+def preferred_figure(
+    rows: Row | Absent, second: str = "adaptive", *, simulated: bool, alpha: float = ALPHA
+) -> Captioned:
+    """The share who preferred the second instructor; `rows` are those of `preferred_rows`."""
     table = preferred_table(rows)
     with quiet_style():
         figure = Figure(figsize=(ONE_COLUMN, 1.0 + 0.24 * max(1, len(table))))
@@ -70,7 +74,7 @@ def preferred_figure(rows: Row | Absent, *, simulated: bool, alpha: float = ALPH
         axes.set_ylim(len(table) - 0.5, -0.5)
         axes.set_xlim(0, 1)
         axes.set_xlabel(
-            f"share who preferred the adaptive\ninstructor (exact {percent(1 - alpha)} CI)"
+            f"share who preferred the {second}\ninstructor (exact {percent(1 - alpha)} CI)"
         )
         return captioned(
             "preferred",

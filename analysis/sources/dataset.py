@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from analysis.sources.absent import SourceError
-from analysis.sources.designs import design_notes
+from analysis.sources.designs import crossed_in
 from analysis.sources.recorded import ANALYSED, Recorded, recorded
 from analysis.sources.study_folder import forms_of
 from analysis.sources.tables_folder import table_of
@@ -55,8 +55,8 @@ def read_dataset(folder: Path, mode: StudyMode | None = None) -> Recorded:
         )
     frames = {name: _read(files[wanted, name], name, forms) for name in ANALYSED}
     notes = ["these are pilot sessions, no data of the study"] if wanted == "pilot" else []
-    notes += design_notes(folder / "materials", forms)
-    return recorded(frames, folder.resolve().name, notes, forms)
+    crossed = crossed_in(folder / "materials")
+    return recorded(frames, folder.resolve().name, notes, forms, crossed)
 
 
 def _read(path: Path, name: str, forms: Forms) -> pd.DataFrame:

@@ -1,43 +1,87 @@
-"""What a study's settings say of its design: which of the paper's tests it supports."""
+"""What a study's settings say of its design: what it crosses, and which of the paper's tests it
+supports."""
 
 import tomllib
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from analysis.sources.absent import SourceError
+from analysis.sources.factors import ADAPTIVITY, COMPLEXITY
 from game.forms.form import Forms
-from game.tables.designs import supported
+from game.tables.designs import levels_given, supported
 
 SETTINGS = "study.toml"
-_PAIR = ("static", "ana")
 
 
-def design_notes(folder: Path, forms: Forms) -> list[str]:
-    """What a reader must know of the design of the study whose settings lie in `folder`; nothing
-    for the paper's design. Raises SourceError for settings that cannot be read."""
+@dataclass(frozen=True)
+class Crossed:
+    """What a study crosses: its instructors as study.toml names them, the static levels that
+    people were given, and the number of rounds. The paper's, if nothing is said."""
+
+    instructors: tuple[str, str] = ("static", "ana")
+    levels: tuple[str, ...] = COMPLEXITY
+    rounds: int = 2
+    labels: bool = True
+    preference: bool = True
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """What the two instructors are called in results: static and adaptive where they are, their
+        own names in other pairs."""
+        first, second = (name.partition(":")[0] for name in self.instructors)
+        return ADAPTIVITY if first == "static" != second else self.instructors
+
+    @property
+    def gap(self) -> str:
+        """What a difference is of: the second instructor less the first."""
+        return " - ".join(reversed(self.words))
+
+    @property
+    def mapping(self) -> str:
+        """Who `static` and `adaptive` stand for, where they are not that; else empty."""
+        if self.words == ADAPTIVITY:
+            return ""
+        return " and ".join(
+            f"“{word}” stands for {name}" for word, name in zip(ADAPTIVITY, self.words, strict=True)
+        )
+
+    def notes(self, forms: Forms) -> list[str]:
+        """What a reader must know of the design; nothing for the paper's."""
+        tests = supported(
+            pair=self.instructors,
+            levels=self.levels,
+            rounds=self.rounds,
+            labels=self.labels,
+            preference=self.preference,
+            forms=forms,
+        )
+        lacking = [f"{test.name} ({'; '.join(test.lacking)})" for test in tests if test.lacking]
+        notes = [f"in columns and tests {self.mapping}"] if self.mapping else []
+        if lacking:
+            notes.append(f"the design does not support: {', '.join(lacking)}")
+        return notes
+
+
+PAPER_DESIGN = Crossed()
+
+
+def crossed_in(folder: Path) -> Crossed:
+    """What the study whose settings lie in `folder` crosses; the paper's design where there are no
+    settings. Raises SourceError for settings that cannot be read."""
     path = folder / SETTINGS
     try:
         tree: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
-        return []
+        return PAPER_DESIGN
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SourceError(f"the settings cannot be read ({error})", place=str(path)) from error
-    first, second = tree.get("instructors") or (_PAIR[0], tree.get("coach", _PAIR[1]))
-    notes = []
-    if first != "static":
-        notes.append(
-            f"in columns and tests `static` stands for the instructor {first}, and `adaptive` for "
-            f"{second}"
-        )
-    tests = supported(
-        pair=(first, second),
-        levels=[f"C{level}" for level in tree.get("static_levels", (1, 2, 3))],
-        rounds=tree.get("rounds", 2),
+    static, ana = PAPER_DESIGN.instructors
+    first, second = tree.get("instructors") or (static, tree.get("coach", ana))
+    return Crossed(
+        instructors=(first, second),
+        levels=levels_given((first, second), tree.get("static_levels", (1, 2, 3))),
+        rounds=tree.get("rounds", PAPER_DESIGN.rounds),
         labels="label" in tree.get("round_phases", ("label",)),
         preference="preference" in tree.get("phases", ("preference",)),
-        forms=forms,
     )
-    lacking = [f"{test.name} ({'; '.join(test.lacking)})" for test in tests if test.lacking]
-    if lacking:
-        notes.append(f"the design does not support: {', '.join(lacking)}")
-    return notes

@@ -17,6 +17,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from analysis.sources.absent import Refusal, SourceError
+from analysis.sources.designs import PAPER_DESIGN, Crossed
 from analysis.sources.factors import (
     ADAPTIVITY,
     COMPLEXITY,
@@ -41,6 +42,7 @@ class StudyData:
     simulated: bool = False
     notes: tuple[str, ...] = ()
     asked: Outcomes = PAPER
+    crossed: Crossed = PAPER_DESIGN
 
     @property
     def outcomes(self) -> tuple[str, ...]:
@@ -98,6 +100,7 @@ def make_study(
     label: str,
     simulated: bool = False,
     asked: Outcomes = PAPER,
+    crossed: Crossed = PAPER_DESIGN,
 ) -> StudyData:
     """Check the two tables, add `preference`, and put their rows in order.
 
@@ -127,7 +130,9 @@ def make_study(
         adaptivity=pd.Categorical(rounds["adaptivity"], ADAPTIVITY, ordered=True),
     ).sort_values(["participant", "adaptivity"], ignore_index=True)
     ordered["adaptivity"] = ordered["adaptivity"].astype(str)
-    study = StudyData(participants.sort_index(), ordered, label, simulated, asked=asked)
+    study = StudyData(
+        participants.sort_index(), ordered, label, simulated, asked=asked, crossed=crossed
+    )
     counts = ordered["participant"].value_counts()
     single = sorted(str(who) for who in counts.index[counts < len(ADAPTIVITY)])
     if single:
@@ -165,7 +170,8 @@ class Paired:
     """Both rounds of one outcome, for the participants who have both and a knowledge group.
 
     `knowledge` and `complexity` count from 0 in the order of the vocabulary; `static` and
-    `adaptive` are the two rounds' values; all have one entry a participant.
+    `adaptive` are the two rounds' values; all have one entry a participant. `levels` are the
+    static levels of the design.
     """
 
     outcome: str
@@ -175,6 +181,7 @@ class Paired:
     static: Floats
     adaptive: Floats
     n_dropped: int
+    levels: tuple[str, ...] = COMPLEXITY
 
     @property
     def cell(self) -> Ints:
@@ -216,6 +223,7 @@ def paired(study: StudyData, outcome: str) -> Paired:
         static=wide["static"].to_numpy(dtype=float),
         adaptive=wide["adaptive"].to_numpy(dtype=float),
         n_dropped=len(study.participants) - len(people),
+        levels=study.crossed.levels,
     )
 
 

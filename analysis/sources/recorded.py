@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 import pandas as pd
 
 from analysis.sources.absent import SourceError
+from analysis.sources.designs import PAPER_DESIGN, Crossed
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES
 from analysis.sources.frames import StudyData, make_study
 from game.forms.form import Forms
@@ -40,14 +41,15 @@ ROUND = ("participant", "adaptivity", "building", "victims")
 
 @dataclass(frozen=True)
 class Recorded:
-    """The frames of a study by the names in `ANALYSED`; `notes` say what a reader must know, and
-    `forms` what was asked."""
+    """The frames of a study by the names in `ANALYSED`; `notes` say what a reader must know,
+    `forms` what was asked, and `crossed` what was compared."""
 
     frames: Mapping[str, pd.DataFrame]
     label: str
     simulated: bool
     notes: tuple[str, ...] = ()
     forms: Forms = field(default_factory=paper_forms)
+    crossed: Crossed = PAPER_DESIGN
 
     def frame(self, name: str) -> pd.DataFrame:
         """The frame called `name`."""
@@ -81,6 +83,7 @@ class Recorded:
             label=self.label,
             simulated=self.simulated,
             asked=asked,
+            crossed=self.crossed,
         )
         more = ["the first round with each instructor is analysed"] if repeated.any() else []
         return study.noted(*self.notes, *more, *_unfinished(self.frame("participants")))
@@ -91,6 +94,7 @@ def recorded(
     label: str,
     notes: Iterable[str] = (),
     forms: Forms | None = None,
+    crossed: Crossed = PAPER_DESIGN,
 ) -> Recorded:
     """A study of these frames.
 
@@ -106,8 +110,9 @@ def recorded(
     kinds = set(people["simulated"])
     if len(kinds) > 1:
         raise SourceError(f"{label}: it holds real and simulated sessions; they are analysed apart")
-    several = _versions(people)
-    return Recorded(frames, label, kinds == {True}, (*notes, *several), forms or paper_forms())
+    forms = forms or paper_forms()
+    told = (*notes, *crossed.notes(forms), *_versions(people))
+    return Recorded(frames, label, kinds == {True}, told, forms, crossed)
 
 
 def typed(name: str, table: Sequence[Sequence[str]], forms: Forms | None = None) -> pd.DataFrame:

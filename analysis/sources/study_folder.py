@@ -8,7 +8,7 @@ from os import cpu_count
 from pathlib import Path
 
 from analysis.sources.absent import SourceError
-from analysis.sources.designs import design_notes
+from analysis.sources.designs import crossed_in
 from analysis.sources.recorded import ANALYSED, Recorded, recorded, typed
 from game.forms.form import Forms
 from game.forms.reading import BLANK, FORMS, ITEMS, paper_forms, read_forms
@@ -69,8 +69,7 @@ def read_study_folder(
     notes = [] if len(schemas) == 1 else [_mixed(schemas)]
     if mode == "pilot":
         notes.append("these are pilot sessions, no data of the study")
-    notes += design_notes(folder, forms)
-    return recorded(frames, folder.resolve().name, notes, forms)
+    return recorded(frames, folder.resolve().name, notes, forms, crossed_in(folder))
 
 
 def forms_of(folder: Path) -> Forms:

@@ -1,6 +1,6 @@
 """Tests of adaptive - static over everybody: one question, asked with three sets of weights.
 
-The ANOVA counts the nine analysis cells equally (the unweighted mean of their means), the paired t
+The ANOVA counts the analysis cells equally (the unweighted mean of their means), the paired t
 test counts people equally, and HC3 counts cells equally but lets each have its own spread. They
 differ where cells are of unequal size or spread.
 """
@@ -12,10 +12,11 @@ import numpy as np
 from scipy import stats
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
+from analysis.sources.designs import PAPER_DESIGN, Crossed
 from analysis.sources.frames import Floats, Paired, StudyData, both_rounds, paired
 from analysis.stats.apa import p_words
 from analysis.stats.assumptions import hc3_rows
-from analysis.stats.cellmodel import CELLS, weights_of
+from analysis.stats.cellmodel import cell_words, weights_of
 from analysis.stats.level import ALPHA
 from analysis.stats.posthoc import RoundModels
 
@@ -24,8 +25,8 @@ from analysis.stats.posthoc import RoundModels
 class Overall:
     """adaptive - static of one outcome over `n` people, in points, with its standard error.
 
-    `unit` is the standard deviation of the static round. `equal_cells` says whether the nine cells
-    count equally, as in the ANOVA's test of adaptivity, or people do.
+    `unit` is the standard deviation of the static round. `equal_cells` says whether the analysis
+    cells count equally, as in the ANOVA's test of adaptivity, or people do.
     """
 
     n: int
@@ -55,7 +56,7 @@ def overall(study: StudyData, outcome: str) -> Overall:
     if study.has("knowledge"):
         pair = paired(study, outcome)
         model = RoundModels.of(pair).difference
-        contrast = model.contrast(weights_of(CELLS))
+        contrast = model.contrast(weights_of(model.cells))
         if isinstance(contrast.estimate, float) and isinstance(contrast.se, float):
             unit = _unit(pair.static)
             n = len(pair.participants)
@@ -84,14 +85,14 @@ def adaptivity_tests(pair: Paired) -> list[Row]:
     """
     model = RoundModels.of(pair).difference
     model.require_every_cell()
-    equal = model.contrast(weights_of(CELLS))
+    equal = model.contrast(weights_of(model.cells))
     hc3 = attempt(hc3_rows, pair)
     robust = hc3 if isinstance(hc3, Absent) else hc3[0]["p"]
     if np.ptp(pair.difference) > 0:
         paired_p: float | Absent = float(stats.ttest_1samp(pair.difference, 0.0).pvalue)
     else:
         paired_p = Absent("everybody has the same difference between the rounds")
-    cells = {"counts_equally": "the nine cells", "estimate": equal.estimate}
+    cells = {"counts_equally": f"the {cell_words(pair.levels)}", "estimate": equal.estimate}
     return [
         {"test": "ANOVA", **cells, "error": "pooled over the cells", "p": equal.p},
         {"test": "HC3", **cells, "error": "each cell's own", "p": robust},
@@ -100,7 +101,11 @@ def adaptivity_tests(pair: Paired) -> list[Row]:
     ]  # fmt: skip
 
 
-def why_they_differ(tests: Mapping[str, list[Row] | Absent], alpha: float = ALPHA) -> list[str]:
+def why_they_differ(
+    tests: Mapping[str, list[Row] | Absent],
+    alpha: float = ALPHA,
+    crossed: Crossed = PAPER_DESIGN,
+) -> list[str]:
     """One note on the outcomes (keys) whose tests fall on both sides of alpha; none if there are
     none."""
     told = []
@@ -117,8 +122,8 @@ def why_they_differ(tests: Mapping[str, list[Row] | Absent], alpha: float = ALPH
     if not told:
         return []
     return [
-        f"tests of adaptive - static disagree for {'; '.join(told)}: the ANOVA and HC3 count the "
-        "nine cells equally, the paired t test counts people equally, and HC3 lets each cell have "
-        "a spread of its own; the ANOVA's is the planned test, and the figure of the estimates has "
-        "its margin"
+        f"tests of {crossed.gap} disagree for {'; '.join(told)}: the ANOVA and HC3 count the "
+        f"{cell_words(crossed.levels)} equally, the paired t test counts people equally, and HC3 "
+        "lets each cell have a spread of its own; the ANOVA's is the planned test, and the figure "
+        "of the estimates has its margin"
     ]

@@ -11,25 +11,54 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
+from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, Paired
 from analysis.stats.cellmodel import CellModel, FTest, fit_cells
 from analysis.stats.effect_sizes import eta_interval
 from analysis.stats.level import ALPHA
 
-_MEAN = np.full((1, 3), 1 / 3)
-_GAPS = np.array([[1.0, -1.0, 0.0], [1.0, 0.0, -1.0]])
 
-#: Between effects and their hypotheses on the nine cell means (q x 9).
-HYPOTHESES: dict[str, Floats] = {
-    "(Intercept)": np.kron(_MEAN, _MEAN),
-    "knowledge": np.kron(_GAPS, _MEAN),
-    "complexity": np.kron(_MEAN, _GAPS),
-    "knowledge:complexity": np.kron(_GAPS, _GAPS),
-}
+def _mean(levels: tuple[str, ...], used: tuple[str, ...]) -> Floats:
+    return np.array([[(level in used) / len(used) for level in levels]])
+
+
+def _gaps(levels: tuple[str, ...], used: tuple[str, ...]) -> Floats:
+    """The first level less each other one (shape: q x levels)."""
+    eye = np.eye(len(levels))
+    first, *others = (eye[levels.index(level)] for level in used)
+    return np.array([first - other for other in others]).reshape(-1, len(levels))
+
+
+def _product(knowledge: Floats, complexity: Floats) -> Floats:
+    return np.asarray(np.kron(knowledge, complexity), dtype=float)
+
+
+def hypotheses(levels: tuple[str, ...] = COMPLEXITY) -> dict[str, Floats]:
+    """Between effects and their hypotheses on the nine cell means (q x 9), for these static
+    levels; with one level there are no effects of complexity."""
+    mean, means = _mean(KNOWLEDGE, KNOWLEDGE), _mean(COMPLEXITY, levels)
+    gap, gaps = _gaps(KNOWLEDGE, KNOWLEDGE), _gaps(COMPLEXITY, levels)
+    every = {
+        "(Intercept)": _product(mean, means),
+        "knowledge": _product(gap, means),
+        "complexity": _product(mean, gaps),
+        "knowledge:complexity": _product(gap, gaps),
+    }
+    return {name: rows for name, rows in every.items() if len(rows)}
+
+
+#: Between effects and their hypotheses in the paper's design.
+HYPOTHESES = hypotheses()
 BETWEEN = tuple(HYPOTHESES)
 WITHIN = ("adaptivity", *(f"{name}:adaptivity" for name in BETWEEN[1:]))
 EFFECTS = (*BETWEEN, *WITHIN)
 THREE_WAY = WITHIN[-1]
+
+
+def within(levels: tuple[str, ...] = COMPLEXITY) -> dict[str, Floats]:
+    """Within-person effects and their hypotheses on the cell means of the differences."""
+    names = dict(zip(BETWEEN, WITHIN, strict=True))
+    return {names[name]: rows for name, rows in hypotheses(levels).items()}
 
 
 @dataclass(frozen=True)
@@ -82,16 +111,16 @@ class Effect:
 
 def difference_model(pair: Paired) -> CellModel:
     """The saturated model of d = (adaptive - static)/sqrt 2."""
-    return fit_cells(pair.difference / np.sqrt(2), pair.cell)
+    return fit_cells(pair.difference / np.sqrt(2), pair.cell, pair.levels)
 
 
 def sum_model(pair: Paired) -> CellModel:
     """The saturated model of b = (adaptive + static)/sqrt 2."""
-    return fit_cells(pair.mean * np.sqrt(2), pair.cell)
+    return fit_cells(pair.mean * np.sqrt(2), pair.cell, pair.levels)
 
 
 def mixed_anova(pair: Paired) -> list[Effect]:
-    """All eight effects, in the order of `EFFECTS`.
+    """All effects that the design has, in the order of `EFFECTS`.
 
     Raises Refusal, naming the cells, where an analysis cell is empty, and where there is no error
     variance to test against.
@@ -103,11 +132,8 @@ def mixed_anova(pair: Paired) -> list[Effect]:
         if reason is not None:
             raise Refusal(f"{what}: {reason}")
     tests = {
-        **{name: b.test(hypothesis) for name, hypothesis in HYPOTHESES.items()},
-        **{
-            name: d.test(hypothesis)
-            for name, hypothesis in zip(WITHIN, HYPOTHESES.values(), strict=True)
-        },
+        **{name: b.test(rows) for name, rows in hypotheses(pair.levels).items()},
+        **{name: d.test(rows) for name, rows in within(pair.levels).items()},
     }
     error = b.sse + d.sse
     measured = sum(test.ss for name, test in tests.items() if "knowledge" in name)

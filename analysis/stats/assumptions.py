@@ -7,7 +7,7 @@ from scipy import special, stats
 
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.frames import Floats, Paired
-from analysis.stats.anova import HYPOTHESES, WITHIN
+from analysis.stats.anova import within
 from analysis.stats.cellmodel import CELLS, FLAT, CellModel
 from analysis.stats.posthoc import RoundModels
 
@@ -61,13 +61,13 @@ def hc3_rows(pair: Paired) -> list[Row]:
     """
     model = RoundModels.of(pair).difference
     model.require_every_cell()
-    if bool((model.counts < 2).any()):
+    if bool((model.counts[model.counts > 0] < 2).any()):
         raise Refusal("HC3 needs at least two people in every analysis cell")
     weighted = model.residuals / (1 - 1 / model.counts[model.cell])
-    variances = np.bincount(model.cell, weighted**2, len(CELLS)) / model.counts**2
+    variances = np.bincount(model.cell, weighted**2, len(CELLS)) / np.maximum(model.counts, 1) ** 2
     return [
         {"effect": effect, **_hc3_test(model, variances, hypothesis)}
-        for effect, hypothesis in zip(WITHIN, HYPOTHESES.values(), strict=True)
+        for effect, hypothesis in within(pair.levels).items()
     ]
 
 
@@ -76,6 +76,6 @@ def _hc3_test(model: CellModel, variances: Floats, hypothesis: Floats) -> Row:
     if np.linalg.matrix_rank(spread) < len(hypothesis):
         flat = Absent("too many analysis cells without variation")
         return {"F": flat, "p": flat}
-    gap = hypothesis @ model.means
+    gap = model.gaps(hypothesis)
     f = float(gap @ np.linalg.solve(spread, gap)) / len(hypothesis)
     return {"F": f, "p": float(special.fdtrc(len(hypothesis), model.df, f))}

@@ -1,8 +1,8 @@
-"""The saturated 3 x 3 model of one variable: cell means, one pooled error, exact tests.
+"""The saturated model of one variable: means of knowledge x complexity, one error, exact tests.
 
 With D = diag(1/n), a hypothesis L m = 0 on the unweighted cell means m has
-SS = (L m)' (L D L')^-1 (L m) and F = (SS/q)/MSE with MSE = SSE/df, df = N - 9 (Type III with no
-empty cell; Searle, Linear Models for Unbalanced Data, 1987).
+SS = (L m)' (L D L')^-1 (L m) and F = (SS/q)/MSE with MSE = SSE/df, df = N - cells (9 in the
+paper's design; Type III with no empty cell; Searle, Linear Models for Unbalanced Data, 1987).
 """
 
 from collections.abc import Iterable
@@ -18,6 +18,14 @@ from analysis.stats.effect_sizes import t_noncentrality
 from analysis.stats.level import ALPHA
 
 CELLS = tuple((knowledge, level) for knowledge in KNOWLEDGE for level in COMPLEXITY)
+_COUNTS = {3: "three", 6: "six", 9: "nine"}
+
+
+def cell_words(levels: tuple[str, ...]) -> str:
+    """ "nine cells": those of a design with these static levels."""
+    return f"{_COUNTS[len(KNOWLEDGE) * len(levels)]} cells"
+
+
 #: A spread within cells below this share of the largest value is rounding, not variation.
 FLAT = 1e-12
 
@@ -88,11 +96,12 @@ class Contrast:
 
 @dataclass(frozen=True)
 class CellModel:
-    """Counts, means and sums of squared residuals of the nine analysis cells.
+    """Counts, means and sums of squared residuals of the analysis cells.
 
     `counts` and `means` have shape (9,), in the order of `CELLS`; the mean of an empty cell is
     NaN. `cell` and `residuals` have one entry a person. `sse` is exactly 0 where nobody differs
-    from their cell's mean beyond rounding.
+    from their cell's mean beyond rounding. `levels` are the static levels of the design: no other
+    cell is missed.
     """
 
     cell: Ints
@@ -100,6 +109,7 @@ class CellModel:
     means: Floats
     residuals: Floats
     sse: float
+    levels: tuple[str, ...] = COMPLEXITY
 
     @property
     def df(self) -> int:
@@ -107,12 +117,17 @@ class CellModel:
         return int(self.counts.sum()) - int(np.count_nonzero(self.counts))
 
     @property
+    def cells(self) -> tuple[tuple[str, str], ...]:
+        """The cells of the design."""
+        return tuple(cell for cell in CELLS if cell[1] in self.levels)
+
+    @property
     def empty(self) -> tuple[str, ...]:
-        """Names of the empty cells."""
+        """Names of the cells of the design that are empty."""
         return tuple(
             f"{knowledge} {level}"
             for (knowledge, level), count in zip(CELLS, self.counts, strict=True)
-            if count == 0
+            if count == 0 and level in self.levels
         )
 
     def why_no_error(self) -> str | None:
@@ -139,8 +154,19 @@ class CellModel:
 
     def sum_of_squares(self, hypothesis: Floats) -> float:
         """SS = (L m)' (L D L')^-1 (L m), for no empty cell."""
-        gap = hypothesis @ self.means
-        return float(gap @ np.linalg.solve((hypothesis / self.counts) @ hypothesis.T, gap))
+        gap = self.gaps(hypothesis)
+        return float(gap @ np.linalg.solve(self.spread(hypothesis), gap))
+
+    def gaps(self, hypothesis: Floats) -> Floats:
+        """L m; a cell that is not of the design counts nothing."""
+        filled = self.counts > 0
+        return np.asarray(hypothesis[:, filled] @ self.means[filled], dtype=float)
+
+    def spread(self, hypothesis: Floats) -> Floats:
+        """L D L', the covariance of L m in units of the error variance."""
+        filled = self.counts > 0
+        used = hypothesis[:, filled]
+        return np.asarray((used / self.counts[filled]) @ used.T, dtype=float)
 
     def require_every_cell(self) -> None:
         """Raises Refusal naming the empty cells, if any."""
@@ -175,7 +201,7 @@ def _position(name: str) -> int:
     return CELLS.index((knowledge, level))
 
 
-def fit_cells(values: Floats, cell: Ints) -> CellModel:
+def fit_cells(values: Floats, cell: Ints, levels: tuple[str, ...] = COMPLEXITY) -> CellModel:
     """Fit one mean a cell (values and cell: shape (people,), cell from 0 to 8)."""
     counts = np.bincount(cell, minlength=len(CELLS))
     sums = np.bincount(cell, weights=values, minlength=len(CELLS))
@@ -184,7 +210,7 @@ def fit_cells(values: Floats, cell: Ints) -> CellModel:
     scale = float(np.abs(values).max(initial=0.0))
     if bool((np.abs(residuals) <= FLAT * scale).all()):
         residuals = np.zeros_like(residuals)
-    return CellModel(cell, counts, means, residuals, float(residuals @ residuals))
+    return CellModel(cell, counts, means, residuals, float(residuals @ residuals), levels)
 
 
 def weights_of(cells: Iterable[tuple[str, str]]) -> Floats:

@@ -16,7 +16,6 @@ from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, Ints, StudyData
 
-FACTORS = {"knowledge": KNOWLEDGE, "complexity": COMPLEXITY, "adaptivity": ADAPTIVITY}
 TERMS = (
     ("knowledge",),
     ("complexity",),
@@ -32,9 +31,9 @@ SHARES = np.linspace(0.0, 0.999, 60)
 
 @dataclass(frozen=True)
 class Design:
-    """Sum-coded columns of the saturated 3 x 3 x 2 model, and which belong to which effect.
+    """Sum-coded columns of the saturated model, and which belong to which effect.
 
-    `matrix` is rows x 18; `person` numbers the participants from 0.
+    `matrix` is rows x cells (18 in the paper's design); `person` numbers the participants from 0.
     """
 
     matrix: Floats
@@ -70,13 +69,17 @@ class MixedFit:
         return float(2 * variance**2 / (slope @ self.variance_covariance @ slope))
 
 
-def sum_coded(rows: pd.DataFrame) -> Design:
-    """Sum-code the three factors of `rows` (columns participant and the factors)."""
-    main = {name: _sum_columns(rows[name], levels) for name, levels in FACTORS.items()}
+def sum_coded(rows: pd.DataFrame, levels: tuple[str, ...] = COMPLEXITY) -> Design:
+    """Sum-code the three factors of `rows` (columns participant and the factors); `levels` are the
+    static levels of the design, and one alone has no effects."""
+    factors = {"knowledge": KNOWLEDGE, "complexity": levels, "adaptivity": ADAPTIVITY}
+    main = {name: _sum_columns(rows[name], values) for name, values in factors.items()}
     columns = ["(Intercept)"]
     parts = [np.ones(len(rows))]
     effects: dict[str, list[int]] = {}
     for term in TERMS:
+        if not all(main[factor] for factor in term):
+            continue
         names, values = [""], [np.ones(len(rows))]
         for factor in term:
             # the first factor's columns vary fastest
@@ -262,7 +265,7 @@ def mixed_model(study: StudyData, outcome: str) -> Row:
     rows = study.rounds.join(people, on="participant").dropna(subset=[outcome, "knowledge"])
     if rows.empty:
         raise Refusal(f"nobody has an answer for {outcome}")
-    design = sum_coded(rows)
+    design = sum_coded(rows, study.crossed.levels)
     filled, cell = np.unique(design.matrix, axis=0, return_inverse=True)
     complete = len(filled) == design.matrix.shape[1]
     matrix = design.matrix if complete else np.eye(len(filled))[cell.ravel()]

@@ -10,7 +10,7 @@ import pandas as pd
 from scipy import optimize, special, stats
 
 from analysis.sources.absent import Absent, Refusal, Row, attempt
-from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE, LIKERT_ITEMS
+from analysis.sources.factors import ADAPTIVITY, KNOWLEDGE, LIKERT_ITEMS
 from analysis.sources.frames import Floats, Ints, StudyData, both_rounds
 from analysis.stats.cellmodel import CELLS
 
@@ -60,14 +60,17 @@ def _interaction(study: StudyData, item: str, adaptivity: str) -> Row:
     rounds = study.rounds[study.rounds["adaptivity"] == adaptivity]
     rows = rounds.join(people, on="participant").dropna(subset=[item, "knowledge"])
     filled = set(zip(rows["knowledge"], rows["complexity"], strict=True))
-    if len(filled) < len(CELLS):
-        vacant = [" ".join(cell) for cell in CELLS if cell not in filled]
+    levels = study.crossed.levels
+    if len(levels) < 2:
+        raise Refusal("one static level, so no interaction with it")
+    vacant = [" ".join(cell) for cell in CELLS if cell[1] in levels and cell not in filled]
+    if vacant:
         raise Refusal(f"empty analysis cells: {', '.join(vacant)}")
     _, answers = np.unique(rows[item].to_numpy(dtype=int), return_inverse=True)
     if answers.max() == 0:
         raise Refusal("everybody gave the same answer")
     group = _indicators(rows["knowledge"], KNOWLEDGE)
-    level = _indicators(rows["complexity"], COMPLEXITY)
+    level = _indicators(rows["complexity"], levels)
     products = np.column_stack([g * v for g in group.T for v in level.T])
     main = proportional_odds(answers, np.column_stack([group, level]))
     full = proportional_odds(answers, np.column_stack([group, level, products]))

@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 
 from analysis.sources.absent import Absent, Row
-from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE
+from analysis.sources.factors import ADAPTIVITY, KNOWLEDGE
 from analysis.sources.frames import Floats, Paired
 from analysis.stats.cellmodel import (
     CELLS,
@@ -40,12 +40,17 @@ class RoundModels:
     def of(cls, pair: Paired, alpha: float = ALPHA) -> "RoundModels":
         """Fit the four models to the listwise sample."""
         return cls(
-            fit_cells(pair.static, pair.cell),
-            fit_cells(pair.adaptive, pair.cell),
-            fit_cells(pair.mean, pair.cell),
-            fit_cells(pair.difference, pair.cell),
+            fit_cells(pair.static, pair.cell, pair.levels),
+            fit_cells(pair.adaptive, pair.cell, pair.levels),
+            fit_cells(pair.mean, pair.cell, pair.levels),
+            fit_cells(pair.difference, pair.cell, pair.levels),
             alpha,
         )
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """The static levels of the design."""
+        return self.mean.levels
 
     def by_round(self) -> Iterator[tuple[str, CellModel]]:
         """The rounds' models with their names."""
@@ -56,7 +61,8 @@ def cell_rows(models: RoundModels) -> list[Row]:
     """n, mean and standard deviation of each knowledge x complexity x adaptivity cell."""
     rows: list[Row] = []
     deviations = {name: _deviations(model) for name, model in models.by_round()}
-    for index, (knowledge, level) in enumerate(CELLS):
+    for knowledge, level in models.mean.cells:
+        index = CELLS.index((knowledge, level))
         for name, model in models.by_round():
             count = int(model.counts[index])
             rows.append(
@@ -88,7 +94,7 @@ def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
         "knowledge": [
             {
                 "knowledge": group,
-                **_mean_row(models.mean.contrast(weights_of(_row_of(group))), models.alpha),
+                **_mean_row(models.mean.contrast(weights_of(_row_of(group, models))), models.alpha),
             }
             for group in KNOWLEDGE
         ],
@@ -97,10 +103,13 @@ def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
                 "complexity": level,
                 **_mean_row(models.mean.contrast(weights_of(_column_of(level))), models.alpha),
             }
-            for level in COMPLEXITY
+            for level in models.levels
         ],
         "adaptivity": [
-            {"adaptivity": name, **_mean_row(model.contrast(weights_of(CELLS)), models.alpha)}
+            {
+                "adaptivity": name,
+                **_mean_row(model.contrast(weights_of(models.mean.cells)), models.alpha),
+            }
             for name, model in models.by_round()
         ],
         "knowledge_complexity_adaptivity": [
@@ -111,7 +120,7 @@ def marginal_means(models: RoundModels) -> dict[str, list[Row]]:
                 **_mean_row(model.contrast(weights_of([(group, level)])), models.alpha),
             }
             for name, model in models.by_round()
-            for level in COMPLEXITY
+            for level in models.levels
             for group in KNOWLEDGE
         ],
     }
@@ -146,7 +155,7 @@ def complexity_within_knowledge_avg(models: RoundModels) -> list[Row]:
 
 
 def _levels_within(model: CellModel, group: str, more: Row, alpha: float) -> list[Row]:
-    cells = {level: (group, level) for level in COMPLEXITY}
+    cells = {level: (group, level) for level in model.levels}
     return _family(model, cells, {"knowledge": group, **more}, alpha)
 
 
@@ -154,7 +163,7 @@ def difference_knowledge_within_complexity(models: RoundModels) -> list[Row]:
     """Difference scores compared between knowledge groups at each static level (Fig. 9)."""
     return [
         row
-        for level in COMPLEXITY
+        for level in models.levels
         for row in _family(
             models.difference,
             {group: (group, level) for group in KNOWLEDGE},
@@ -179,7 +188,7 @@ def _family(
 
 def difference_all_pairs(models: RoundModels) -> list[Row]:
     """All 36 pairs of cells on adaptive - static, with Tukey's adjustment too."""
-    cells = [(group, level) for level in COMPLEXITY for group in KNOWLEDGE]
+    cells = [(group, level) for level in models.levels for group in KNOWLEDGE]
     pairs = list(combinations(cells, 2))
     model = models.difference
     contrasts = [model.contrast(_gap(one, other)) for one, other in pairs]
@@ -202,7 +211,7 @@ def difference_all_pairs(models: RoundModels) -> list[Row]:
 def simple_adaptivity_within_cell(models: RoundModels) -> list[Row]:
     """adaptive - static in each analysis cell, unadjusted."""
     rows: list[Row] = []
-    for level in COMPLEXITY:
+    for level in models.levels:
         for group in KNOWLEDGE:
             contrast = models.difference.contrast(weights_of([(group, level)]))
             rows.append(
@@ -219,7 +228,7 @@ def simple_adaptivity_within_cell(models: RoundModels) -> list[Row]:
 
 def adaptivity_marginal(models: RoundModels) -> list[Row]:
     """adaptive - static over all cells, with the interval that equivalence is read from."""
-    contrast = models.difference.contrast(weights_of(CELLS))
+    contrast = models.difference.contrast(weights_of(models.mean.cells))
     lower, upper = contrast.interval(1 - 2 * models.alpha)
     return [
         {
@@ -237,8 +246,8 @@ def _gap(one: tuple[str, str], other: tuple[str, str]) -> Floats:
     return weights_of([one]) - weights_of([other])
 
 
-def _row_of(group: str) -> list[tuple[str, str]]:
-    return [(group, level) for level in COMPLEXITY]
+def _row_of(group: str, models: RoundModels) -> list[tuple[str, str]]:
+    return [(group, level) for level in models.levels]
 
 
 def _column_of(level: str) -> list[tuple[str, str]]:

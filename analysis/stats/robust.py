@@ -5,7 +5,7 @@ from scipy import stats
 
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.frames import Floats, Ints, Paired, StudyData, both_rounds
-from analysis.stats.anova import HYPOTHESES, WITHIN, difference_model
+from analysis.stats.anova import WITHIN, difference_model, within
 from analysis.stats.cellmodel import CELLS, CellModel
 from analysis.stats.equivalence import jzs_bayes_factor
 from analysis.stats.level import ALPHA
@@ -37,10 +37,10 @@ def permutation_rows(
         raise Refusal(reason)
     d = pair.difference / np.sqrt(2)
     rows: list[Row] = []
-    for at, (effect, hypothesis) in enumerate(zip(WITHIN, HYPOTHESES.values(), strict=True)):
+    for effect, hypothesis in within(pair.levels).items():
         if effect not in effects:
             continue
-        rng = np.random.default_rng([seed, at])
+        rng = np.random.default_rng([seed, WITHIN.index(effect)])
         reduced = _reduced_fit(model, hypothesis)[pair.cell]
         residuals = d - reduced
         if effect == "adaptivity":
@@ -63,18 +63,17 @@ def permutation_rows(
 
 def _reduced_fit(model: CellModel, hypothesis: Floats) -> Floats:
     """The cell means that fit best among those without the effect: shape (9,)."""
-    spread = (hypothesis / model.counts) @ hypothesis.T
-    pull = (hypothesis / model.counts).T @ np.linalg.solve(spread, hypothesis @ model.means)
-    return np.asarray(model.means - pull, dtype=float)
+    away = np.linalg.solve(model.spread(hypothesis), model.gaps(hypothesis))
+    return np.asarray(model.means - hypothesis.T @ away / np.maximum(model.counts, 1), dtype=float)
 
 
 def f_of_many(values: Floats, model: CellModel, cell: Ints, hypothesis: Floats) -> Floats:
     """F of one hypothesis for many samples (samples x people) in the same cells."""
     indicators = np.eye(len(CELLS))[cell]
-    means = values @ indicators / model.counts
+    means = values @ indicators / np.maximum(model.counts, 1)
     sse = (values**2).sum(axis=1) - (means**2) @ model.counts
     gaps = means @ hypothesis.T
-    spread = np.linalg.inv((hypothesis / model.counts) @ hypothesis.T)
+    spread = np.linalg.inv(model.spread(hypothesis))
     ss = np.einsum("rq,qp,rp->r", gaps, spread, gaps)
     return np.asarray(ss / len(hypothesis) / (sse / model.df), dtype=float)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, Row, Tree, attempt
-from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
+from analysis.sources.factors import KNOWLEDGE
 from analysis.sources.frames import Floats, StudyData, both_rounds, paired
 from analysis.sources.samples import Sample, left_by
 from analysis.stats.anova import mixed_anova
@@ -130,7 +130,9 @@ def continuous_rows(study: StudyData, outcome: str) -> list[Row]:
     scores = people["quiz_static"].to_numpy(dtype=float)
     if len(scores) < len(CELLS) or np.ptp(scores) == 0:
         raise Refusal("too few people with both rounds and a score, or scores that do not vary")
-    terms = _score_terms((scores - scores.mean()) / scores.std(ddof=1), people["complexity"])
+    terms = _score_terms(
+        (scores - scores.mean()) / scores.std(ddof=1), people["complexity"], study.crossed.levels
+    )
     static, adaptive = (rounds[name].to_numpy(dtype=float) for name in ("static", "adaptive"))
     variables = {"": (adaptive + static) / 2**0.5, "adaptivity": (adaptive - static) / 2**0.5}
     rows: list[Row] = []
@@ -152,14 +154,18 @@ def continuous_rows(study: StudyData, outcome: str) -> list[Row]:
     return rows
 
 
-def _score_terms(score: Floats, complexity: pd.Series) -> dict[str, Floats]:
-    last = (complexity == COMPLEXITY[-1]).to_numpy(dtype=float)
+def _score_terms(
+    score: Floats, complexity: pd.Series, levels: tuple[str, ...]
+) -> dict[str, Floats]:
+    last = (complexity == levels[-1]).to_numpy(dtype=float)
+    main: dict[str, Floats] = {"(Intercept)": np.ones((len(score), 1)), "score": score[:, None]}
+    if len(levels) < 2:
+        return main
     level: Floats = np.column_stack(
-        [(complexity == name).to_numpy(dtype=float) - last for name in COMPLEXITY[:-1]]
+        [(complexity == name).to_numpy(dtype=float) - last for name in levels[:-1]]
     )
     return {
-        "(Intercept)": np.ones((len(score), 1)),
-        "score": score[:, None],
+        **main,
         "complexity": level,
         "score:complexity": score[:, None] * level,
     }

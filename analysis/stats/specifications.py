@@ -10,7 +10,7 @@ from analysis.sources.absent import Absent, Refusal, Row, attempt
 from analysis.sources.factors import KNOWLEDGE
 from analysis.sources.frames import Paired, StudyData, paired
 from analysis.sources.samples import left_by
-from analysis.stats.anova import THREE_WAY, WITHIN, mixed_anova
+from analysis.stats.anova import THREE_WAY, mixed_anova
 from analysis.stats.assumptions import hc3_rows
 from analysis.stats.corrections import adjusted
 from analysis.stats.groups import grouped
@@ -29,11 +29,11 @@ def specification_rows(randomised: StudyData, rules: ExclusionRules) -> list[Row
     ask for it) under every specification.
 
     A correction is over the mental states. A specification that cannot be had has no p, and
-    says why.
+    says why. With one static level there is no such effect, and so there are no rows.
     """
     rows: list[Row] = []
     states = randomised.asked.mental_states
-    if not states:
+    if not states or len(randomised.crossed.levels) < 2:
         return rows
     outcome = states.index(OUTCOME) if OUTCOME in states else 0
     for sample, study in _samples(randomised, rules):
@@ -87,7 +87,7 @@ def _anova_p(pair: Paired) -> float:
 
 
 def _hc3_p(pair: Paired) -> float:
-    return _number(hc3_rows(pair)[WITHIN.index(THREE_WAY)]["p"])
+    return next(_number(row["p"]) for row in hc3_rows(pair) if row["effect"] == THREE_WAY)
 
 
 def _permutation_p(pair: Paired) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple
 
 from game.forms.form import Forms
@@ -27,6 +27,14 @@ class PaperTest(NamedTuple):
         return f": {'; '.join(self.lacking)}" if self.lacking else ""
 
 
+def levels_given(pair: tuple[str, str], levels: Sequence[int]) -> tuple[str, ...]:
+    """The static levels that people are given: those of study.toml, or one where no instructor
+    takes its level from the design."""
+    if "static" in pair:
+        return tuple(f"C{level}" for level in levels)
+    return (f"C{levels[0]}",) if len(levels) == 1 else ("C2",)
+
+
 def supported(
     *,
     pair: tuple[str, str],
@@ -42,18 +50,19 @@ def supported(
     asked = outcomes_of(forms)
     one_round = ["there is one round"] if rounds < 2 else []
     no_groups = [] if labels else ["without labelling rooms there are no knowledge groups"]
-    static = any(name.partition(":")[0] == "static" for name in pair)
     missing = [level for level in PAPER_LEVELS if level not in levels]
-    no_levels = [f"no static level {', '.join(missing)}"] if static and missing else []
-    if not static:
-        no_levels = ["no static instructor, so no complexity"]
+    fewer = f" (static levels {', '.join(levels)})" if missing and len(levels) > 1 else ""
+    no_levels = ["one static level, so no complexity"] if len(levels) < 2 else []
+    if "static" not in pair:
+        no_levels = ["no instructor takes a static level, so no complexity"]
     no_states = [] if asked.mental_states else ["no item has the role mental_state"]
     no_sum = [] if "preference" in asked.composites else ["forms.toml has no composite preference"]
-    yield PaperTest(
-        "knowledge x complexity x adaptivity, mixed ANOVA and post-hoc tests",
-        (*one_round, *no_groups, *no_levels),
-    )
-    yield PaperTest("the same for mental states", (*one_round, *no_groups, *no_levels, *no_states))
+    if no_levels:
+        yield PaperTest("the factor complexity", tuple(no_levels))
+    crossed = "knowledge x adaptivity" if no_levels else "knowledge x complexity x adaptivity"
+    lacking = (*one_round, *no_groups)
+    yield PaperTest(f"{crossed}, mixed ANOVA and post-hoc tests{fewer}", lacking)
+    yield PaperTest("the same for mental states", (*lacking, *no_states))
     yield PaperTest("one instructor against the other, paired", tuple(one_round))
     yield PaperTest("Cronbach's alpha of the four preference items", tuple(no_sum))
     yield PaperTest(

@@ -184,7 +184,7 @@ def test_the_command_shows_cells_counts_power_and_tests(
     assert main(["study", "design", str(study.folder)]) == 0
     told = capsys.readouterr().out
     for words in ("20 places, 16 design cells", "C1: 10, C3: 10", "static first: 11", "16 or 24",
-                  "no static level C2", "smallest effect", "engagement, victims"):  # fmt: skip
+                  "(static levels C1, C3)", "smallest effect", "engagement, victims"):  # fmt: skip
         assert words in told, told
 
 

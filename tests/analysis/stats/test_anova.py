@@ -1,6 +1,7 @@
 """The mixed ANOVA against identities, invariances, and models fitted another way."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from random import Random
 
 import numpy as np
@@ -14,7 +15,7 @@ from scipy import stats
 from statsmodels.stats.anova import anova_lm
 
 from analysis.sources.absent import Refusal
-from analysis.sources.factors import OUTCOMES
+from analysis.sources.factors import COMPLEXITY, OUTCOMES
 from analysis.sources.frames import Paired, StudyData, paired
 from analysis.stats.anova import BETWEEN, EFFECTS, WITHIN, Effect, mixed_anova
 
@@ -52,6 +53,32 @@ def statistics(effects: list[Effect]) -> dict[str, tuple[float, ...]]:
 def assert_same(one: list[Effect], other: list[Effect]) -> None:
     for effect, values in statistics(one).items():
         assert statistics(other)[effect] == pytest.approx(values, rel=1e-7, abs=1e-10)
+
+
+@given(pairs(), st.sampled_from([("C1", "C3"), ("C2",), ("C1", "C2", "C3")]))
+def test_a_design_of_fewer_levels_is_tested_as_statsmodels_tests_it(
+    pair: Paired, levels: tuple[str, ...]
+) -> None:
+    kept = np.isin(pair.complexity, [COMPLEXITY.index(level) for level in levels])
+    fewer = replace(rearranged(pair, np.flatnonzero(kept)), levels=levels)
+    if len(fewer.cell) <= 3 * len(levels):
+        return
+    people = pd.DataFrame(
+        {"knowledge": fewer.knowledge, "complexity": fewer.complexity, "y": fewer.difference}
+    )
+    crossed = "C(knowledge, Sum)" + (" * C(complexity, Sum)" if len(levels) > 1 else "")
+    theirs = anova_lm(smf.ols(f"y ~ {crossed}", people).fit(), typ=3)
+    ours = {effect.effect: effect.test for effect in mixed_anova(fewer)}
+    names = {
+        "Intercept": "adaptivity",
+        "C(knowledge, Sum)": "knowledge:adaptivity",
+        "C(complexity, Sum)": "complexity:adaptivity",
+        "C(knowledge, Sum):C(complexity, Sum)": "knowledge:complexity:adaptivity",
+    }
+    for name, row in theirs.drop(index="Residual").iterrows():
+        test = ours.pop(names[str(name)])
+        assert (test.df1, test.F) == pytest.approx((row["df"], row["F"]), rel=1e-6, abs=1e-9)
+    assert len(ours) == (4 if len(levels) > 1 else 2)
 
 
 @given(pairs(), st.randoms(use_true_random=False))
