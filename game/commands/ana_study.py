@@ -159,7 +159,7 @@ def check_study(folder: Path, pictures: Path | None) -> int:
     from game.study.folder import open_study
 
     study = open_study(folder)
-    wrong, pages = found_wrong(study)
+    wrong, pages = found_wrong(study, pictures=pictures is not None)
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
     for note in study.notes:

@@ -29,6 +29,20 @@ def folder(made: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(made, tmp_path / "study"))
 
 
+FEW_PAGES = """rounds = 1
+phases = ["consent", "rounds", "debrief"]
+round_phases = ["mission"]
+"""
+
+
+@pytest.fixture
+def short(folder: Path) -> Path:
+    """A study with few pages."""
+    edit(folder, "study.toml", "label_seconds", f"{FEW_PAGES}label_seconds")
+    edit(folder, "study.toml", "duration_ms = 240000", "duration_ms = 8000")
+    return folder
+
+
 def page(pages: list[Rehearsed], title: str) -> Rehearsed:
     return next(one for one in pages if title in one.name)
 
@@ -70,27 +84,23 @@ def test_every_page_of_a_new_study_is_pictured(
 def test_the_servers_configuration_comes_with_what_is_wrong(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(rehearsal, "found_wrong", lambda _study: (["the page is cut"], []))
+    monkeypatch.setattr(rehearsal, "found_wrong", lambda _study, **_: (["the page is cut"], []))
     assert main(["study", "sshd", str(folder)]) == 0
     told = capsys.readouterr()
     assert "ForceCommand" in told.out
     assert "the page is cut" in told.err
 
 
-def test_words_that_cannot_be_seen_fail_it(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_words_that_cannot_be_seen_fail_it(short: Path, capsys: pytest.CaptureFixture[str]) -> None:
     endless = "Donaudampfschifffahrtsgesellschaftskapitaen" * 4
-    edit(folder, "forms.toml", 'low = "', f'low = "{endless} ')
-    assert main(["study", "check", str(folder)]) == 2
+    edit(short, "forms.toml", 'low = "', f'low = "{endless} ')
+    assert main(["study", "check", str(short)]) == 2
     assert "these words are cut off or hidden" in capsys.readouterr().err
 
 
-def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(
-    folder: Path, tmp_path: Path
-) -> None:
+def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(short: Path, tmp_path: Path) -> None:
     more = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
-    study = edit(folder, "texts.toml", "You can now close this window.", f"{more}\n\nThe very end.")
+    study = edit(short, "texts.toml", "You can now close this window.", f"{more}\n\nThe very end.")
     last = page(rehearsed(study), "Thank you for taking part")
     assert len(last.pictures) > 1
     index = write_pictures([last], "Study", tmp_path / "pictures").read_text("utf-8")

@@ -261,12 +261,26 @@ def test_before_consent_nothing_is_written(tmp_path: Path) -> None:
     assert not study.home(P01).exists()
 
 
-@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(share=st.floats(0, 1))
 def test_a_session_killed_at_any_byte_resumes_and_loses_nothing(
     finished: Study, tmp_path_factory: pytest.TempPathFactory, share: float
 ) -> None:
-    study = small_study(tmp_path_factory.mktemp("cut") / "study")
+    resumes_and_loses_nothing(finished, tmp_path_factory.mktemp("cut"), share)
+
+
+@pytest.mark.slow
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0, 1))
+def test_a_session_killed_at_two_hundred_bytes_resumes_and_loses_nothing(
+    finished: Study, tmp_path_factory: pytest.TempPathFactory, share: float
+) -> None:
+    resumes_and_loses_nothing(finished, tmp_path_factory.mktemp("cut"), share)
+
+
+def resumes_and_loses_nothing(finished: Study, folder: Path, share: float) -> None:
+    """Cut a finished session's journal off after this share of its bytes, and take part again."""
+    study = small_study(folder / "study")
     (study.folder / "ledger.jsonl").write_bytes(
         (finished.folder / "ledger.jsonl").read_bytes().rpartition(b'{"type":"session_ended"')[0]
     )

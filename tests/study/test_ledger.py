@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from collections import Counter
+from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
@@ -26,13 +27,20 @@ def ledger(tmp_path: Path) -> Ledger:
     return ledger
 
 
+def ask(path: Path, participant: str) -> None:
+    Ledger(path).allocate(participant, "live")
+
+
 def test_twenty_at_once_get_twenty_slots_in_exact_balance(ledger: Ledger) -> None:
-    code = ASK + "Ledger(Path(sys.argv[1])).allocate(sys.argv[2], 'live')"
     asking = [
-        subprocess.Popen([sys.executable, "-c", code, str(ledger.path), f"P{number:02}"])
+        get_context("fork").Process(target=ask, args=(ledger.path, f"P{number:02}"))
         for number in range(20)
     ]
-    assert [process.wait(60) for process in asking] == [0] * 20
+    for process in asking:
+        process.start()
+    for process in asking:
+        process.join(60)
+    assert [process.exitcode for process in asking] == [0] * 20
     taken = [entry for entry in ledger.entries() if isinstance(entry, SlotTaken)]
     assert sorted(entry.slot for entry in taken) == list(range(20))
     assert len({entry.participant for entry in taken}) == 20

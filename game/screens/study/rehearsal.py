@@ -98,12 +98,15 @@ class Showing(Program, inherit_bindings=False):
             await self.pop_screen()
 
 
-async def shown(pilot: Pilot[None], name: str, make: Make, words: str) -> Rehearsed:
-    """Open a page in a `Showing`, look at all of it, and compare it with its `words`."""
+async def shown(
+    pilot: Pilot[None], name: str, make: Make, words: str, *, pictures: bool = True
+) -> Rehearsed:
+    """Open a page in a `Showing`, look at all of it, and compare it with its `words`; draw it where
+    `pictures` of it are wanted."""
     app = pilot.app
     assert isinstance(app, Showing)
     views: list[list[str]] = []
-    pictures: list[str] = []
+    drawn: list[str] = []
     async with app.opened(make) as screen:
         await pilot.pause()
         for _ in range(MOST_VIEWS):
@@ -111,10 +114,11 @@ async def shown(pilot: Pilot[None], name: str, make: Make, words: str) -> Rehear
             if view in views:
                 break
             views.append(view)
-            pictures.append(app.export_screenshot(title=name))
+            if pictures:
+                drawn.append(app.export_screenshot(title=name))
             await _go_on(pilot)
         too_tall = screen.too_tall() if isinstance(screen, FormScreen) else {}
-    return Rehearsed(name, tuple(_unseen(words, views)), tuple(pictures), too_tall)
+    return Rehearsed(name, tuple(_unseen(words, views)), tuple(drawn), too_tall)
 
 
 async def _go_on(pilot: Pilot[None]) -> None:
@@ -166,10 +170,17 @@ class _Rehearsal(SimulatedParticipant):
     """Goes through a session as a simulated person does, and has every page opened on the way."""
 
     def __init__(
-        self, session: StudySession, clock: VirtualClock, frame: Frame, pilot: Pilot[None]
+        self,
+        session: StudySession,
+        clock: VirtualClock,
+        frame: Frame,
+        pilot: Pilot[None],
+        *,
+        pictures: bool,
     ) -> None:
         super().__init__(session, clock, POPULATIONS["default"])
         self._pilot = pilot
+        self._pictures = pictures
         self.pages: list[Rehearsed] = []
         self._mission_shown = False
         self._frame = frame
@@ -262,7 +273,7 @@ class _Rehearsal(SimulatedParticipant):
     async def _show(self, name: str, make: Make, *words: Page | str) -> None:
         said = "\n".join(it if isinstance(it, str) else f"{it.title}\n{it.body}" for it in words)
         number = f"{len(self.pages) + 1:02} {name}"
-        self.pages.append(await shown(self._pilot, number, make, said))
+        self.pages.append(await shown(self._pilot, number, make, said, pictures=self._pictures))
 
     async def others(self) -> None:
         """The pages that a session without trouble does not come by."""
@@ -281,9 +292,9 @@ class _Rehearsal(SimulatedParticipant):
             await self._show(window.name, window.make, *window.words)
 
 
-async def rehearse(study: Study) -> list[Rehearsed]:
-    """Every page of the study, in the order of a session with the longest memorise time. Nothing is
-    written to the study's folder."""
+async def rehearse(study: Study, *, pictures: bool) -> list[Rehearsed]:
+    """Every page of the study, in the order of a session with the longest memorise time, drawn
+    where `pictures` are wanted. Nothing is written to the study's folder."""
     design, seed = study.settings.design, study.settings.seed
     cells = (design.cell(seed, "pilot", slot) for slot in range(design.block))
     longest = design.memorise - 1
@@ -300,20 +311,20 @@ async def rehearse(study: Study) -> list[Rehearsed]:
     frame = Frame(study.settings.screen, study.texts.words)
     size = frame.size.columns, frame.size.rows
     async with Showing(frame.size.look).run_test(size=size) as pilot:
-        person = _Rehearsal(session, clock, frame, pilot)
+        person = _Rehearsal(session, clock, frame, pilot, pictures=pictures)
         await conduct(session, person)
         await person.others()
     return person.pages
 
 
-def rehearsed(study: Study) -> list[Rehearsed]:
+def rehearsed(study: Study, *, pictures: bool = True) -> list[Rehearsed]:
     """The same, without an event loop around."""
-    return asyncio.run(rehearse(study))
+    return asyncio.run(rehearse(study, pictures=pictures))
 
 
-def found_wrong(study: Study) -> tuple[list[str], list[Rehearsed]]:
+def found_wrong(study: Study, *, pictures: bool = False) -> tuple[list[str], list[Rehearsed]]:
     """Everything that `ana study check` finds wrong, in words, and the pages that it opened."""
-    pages = rehearsed(study)
+    pages = rehearsed(study, pictures=pictures)
     hidden = [
         f"page {page.name}: these words are cut off or hidden: {' '.join(page.missing)}"
         for page in pages

@@ -16,7 +16,7 @@ from game.study.lock import SessionLock
 from tests.screens.study.faulty import run_with_fault
 from tests.study.people import P01, journal_of, rewind
 
-QUICK, MANY = 20, 200
+QUICK, MANY = 6, 200
 STEPS = (
     Step("memorise", 1),
     Step("label", 1),
