@@ -9,7 +9,7 @@ from typing import Any
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY
 from game.forms.form import Forms
-from game.tables.designs import levels_given, supported
+from game.tables.designs import LABELLED_LATE, labelled_late, levels_given, supported
 
 SETTINGS = "study.toml"
 
@@ -24,6 +24,7 @@ class Crossed:
     rounds: int = 2
     labels: bool = True
     preference: bool = True
+    labelled_late: bool = False
 
     @property
     def words(self) -> tuple[str, str]:
@@ -58,6 +59,8 @@ class Crossed:
         )
         lacking = [f"{test.name} ({'; '.join(test.lacking)})" for test in tests if test.lacking]
         notes = [f"in columns and tests {self.mapping}"] if self.mapping else []
+        if self.labelled_late:
+            notes.append(LABELLED_LATE)
         if lacking:
             notes.append(f"the design does not support: {', '.join(lacking)}")
         return notes
@@ -84,4 +87,5 @@ def crossed_in(folder: Path) -> Crossed:
         rounds=tree.get("rounds", PAPER_DESIGN.rounds),
         labels="label" in tree.get("round_phases", ("label",)),
         preference="preference" in tree.get("phases", ("preference",)),
+        labelled_late=labelled_late(tree.get("round_phases", ())),
     )

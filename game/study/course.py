@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from game.forms.form import Forms, Place
 from game.journal.history import Step
-from game.study.study_settings import StudySettings
+from game.study.study_settings import RoundPhase, StudySettings
 
 Course = tuple[Step, ...]
 """The steps of a session, in order."""
@@ -26,8 +26,12 @@ def course(forms: Forms, settings: StudySettings) -> Course:
             case "rounds":
                 steps += asked("after practice")
                 for number in range(1, settings.rounds + 1):
-                    steps += (Step(part, number) for part in settings.round_phases)
-                    steps += asked("after each mission", number)
+                    for part in _parts(settings):
+                        steps += (
+                            asked("after each mission", number)
+                            if part == "forms"
+                            else [Step(part, number)]
+                        )
                 steps += asked("after both")
             case "consent":
                 steps += [Step("consent"), *asked("before")]
@@ -38,3 +42,9 @@ def course(forms: Forms, settings: StudySettings) -> Course:
             case _:
                 steps.append(Step(phase))
     return tuple(steps)
+
+
+def _parts(settings: StudySettings) -> tuple[RoundPhase, ...]:
+    """The parts of a round; its forms come last where study.toml does not say."""
+    parts = settings.round_phases
+    return parts if "forms" in parts else (*parts, "forms")

@@ -94,7 +94,9 @@ class WebSettings(_Section, frozen=True):
 
 
 StudyPhase = Literal["preflight", "consent", "practice", "rounds", "preference", "debrief"]
-RoundPhase = Literal["memorise", "label", "mission"]
+RoundPhase = Literal["memorise", "label", "mission", "forms"]
+PAPER_ROUND: tuple[RoundPhase, ...] = ("memorise", "label", "mission")
+"""The parts of a round of the paper's; the forms after each mission follow."""
 MOST_ROUNDS = 6
 
 
@@ -118,7 +120,7 @@ class StudySettings(_Section, frozen=True):
     static_levels: tuple[int, ...] = (1, 2, 3)
     rounds: int = 2
     phases: tuple[StudyPhase, ...] = get_args(StudyPhase)
-    round_phases: tuple[RoundPhase, ...] = get_args(RoundPhase)
+    round_phases: tuple[RoundPhase, ...] = PAPER_ROUND
     memorise_seconds: tuple[int, ...] = (60, 180)
     label_seconds: int = 240
     refill_dropouts: bool = False
@@ -164,8 +166,10 @@ class StudySettings(_Section, frozen=True):
         for one, other in ((self.pair[0], self.pair[1]), (self.pair[1], self.pair[0])):
             if one.takes("yoke") and not other.takes("preset"):
                 raise ValueError("instructors: yoked repeats the levels of ana, so it goes with it")
-            if one.takes("quiz") and "label" not in self.round_phases:
-                raise ValueError(f"instructors: {one.kind} needs the round phase label")
+            if one.takes("quiz") and not self._comes_before("label", "mission"):
+                raise ValueError(
+                    f"instructors: {one.kind} needs the round phase label before mission"
+                )
 
     def _check_phases(self) -> None:
         for name, phases in (("phases", self.phases), ("round_phases", self.round_phases)):
@@ -177,19 +181,12 @@ class StudySettings(_Section, frozen=True):
                 raise ValueError(f"phases must have {needed}")
         if "mission" not in self.round_phases:
             raise ValueError("round_phases must have mission")
-        order = {phase: place for place, phase in enumerate(self.phases)}
-        after: tuple[tuple[str, str], ...] = (
-            ("preflight", "consent"),
-            ("consent", "practice"),
-            ("consent", "rounds"),
-            ("rounds", "preference"),
-            *((phase, "debrief") for phase in self.phases if phase != "debrief"),
-        )
-        for before, later in after:
-            if before in order and later in order and order[before] > order[later]:
-                raise ValueError(f"phases must have {before} before {later}")
-        if self.round_phases.index("mission") < len(self.round_phases) - 1:
-            raise ValueError("round_phases must end with mission")
+        _check_order("phases", self.phases, _ORDER)
+        _check_order("round_phases", self.round_phases, _ROUND_ORDER)
+
+    def _comes_before(self, one: RoundPhase, other: RoundPhase) -> bool:
+        places = self.round_phases
+        return one in places and other in places and places.index(one) < places.index(other)
 
     def _check_buildings(self) -> None:
         _within("rounds", self.rounds, 1, MOST_ROUNDS)
@@ -228,6 +225,28 @@ class StudySettings(_Section, frozen=True):
         """How long the map is shown, by the place of the time in `memorise_seconds`; 0 where
         nothing is memorised."""
         return self.memorise_seconds[which] * 1000 if "memorise" in self.round_phases else 0
+
+
+_ORDER: tuple[tuple[StudyPhase, StudyPhase], ...] = (
+    ("preflight", "consent"),
+    ("consent", "practice"),
+    ("practice", "rounds"),
+    ("rounds", "preference"),
+    ("preference", "debrief"),
+    ("consent", "rounds"),
+    ("rounds", "debrief"),
+)
+"""Which phase makes sense only before which other."""
+_ROUND_ORDER: tuple[tuple[RoundPhase, RoundPhase], ...] = (
+    ("memorise", "mission"),
+    ("mission", "forms"),
+)
+
+
+def _check_order(name: str, phases: tuple[str, ...], order: tuple[tuple[str, str], ...]) -> None:
+    for before, later in order:
+        if before in phases and later in phases and phases.index(before) > phases.index(later):
+            raise ValueError(f"{name} must have {before} before {later}")
 
 
 def _check_rising(name: str, values: tuple[int, ...], low: int, high: int) -> None:

@@ -9,6 +9,16 @@ from game.forms.form import Forms
 from game.tables.asked import outcomes_of
 
 PAPER_LEVELS = ("C1", "C2", "C3")
+LABELLED_LATE = (
+    "rooms are labelled after the mission, so the scores that form the knowledge groups also hold "
+    "what the mission taught"
+)
+
+
+def labelled_late(round_phases: Sequence[str]) -> bool:
+    """Whether the rooms of a round are labelled after its mission."""
+    phases = [phase for phase in round_phases if phase in ("label", "mission")]
+    return phases == ["mission", "label"]
 
 
 class PaperTest(NamedTuple):

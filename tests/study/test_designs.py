@@ -105,11 +105,14 @@ def test_the_names_of_what_may_be_had(tmp_path: Path) -> None:
         ("rounds", "3", "3 rounds and 2 buildings"),
         ("rounds", "0", "between 1 and 6"),
         ("phases", '["rounds", "debrief"]', "phases must have consent"),
-        ("phases", '["debrief", "consent", "rounds"]', "consent before debrief"),
+        ("phases", '["debrief", "consent", "rounds"]', "(rounds|consent) before (debrief|rounds)"),
         ("phases", '["consent", "consent", "rounds", "debrief"]', "consent twice"),
         ("phases", '["consent", "preference", "rounds", "debrief"]', "rounds before preference"),
         ("round_phases", '["memorise", "label"]', "must have mission"),
-        ("round_phases", '["mission", "label"]', "must end with mission"),
+        ("round_phases", '["mission", "memorise"]', "memorise before mission"),
+        ("round_phases", '["forms", "mission"]', "mission before forms"),
+        ("phases", '["consent", "rounds", "practice", "debrief"]', "practice before rounds"),
+        ("phases", '["rounds", "consent", "debrief"]', "consent before rounds"),
         ("places", "0", "places must be between"),
     ],
 )
@@ -175,6 +178,14 @@ def test_a_yoked_instructor_repeats_somebody_elses_levels(tmp_path: Path) -> Non
     assert yoke is not None
     assert yoke.session != NOBODY
     assert "P0" not in yoke.session
+
+
+def test_the_command_says_what_labelling_after_the_mission_means(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = with_settings(tmp_path / "study", round_phases='["memorise", "mission", "label"]')
+    assert main(["study", "design", str(study.folder)]) == 0
+    assert "rooms are labelled after the mission" in capsys.readouterr().out
 
 
 def test_the_command_shows_cells_counts_power_and_tests(

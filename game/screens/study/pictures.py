@@ -70,7 +70,8 @@ def _png(svg: str) -> bytes:
 
 
 def _need_a_font() -> None:
-    if _png(_LETTER.format("")) == _png(_LETTER.format('<text y="15" font-family="monospace">M</text>')):
+    letter = '<text y="15" font-family="monospace">M</text>'
+    if _png(_LETTER.format("")) == _png(_LETTER.format(letter)):
         raise StudyError(
             "the pictures would have no letters: this machine has no fonts",
             hint="Install some, such as the package fonts-dejavu",

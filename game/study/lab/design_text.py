@@ -9,7 +9,7 @@ from game.study.design import Balance, balances
 from game.study.power import ALPHA, EFFECTS, POWER, corrected, power_of, smallest_effect
 from game.study.study_settings import StudySettings
 from game.tables.asked import outcomes_of
-from game.tables.designs import supported
+from game.tables.designs import LABELLED_LATE, labelled_late, supported
 
 MOST_CELLS = 48
 """So many design cells are listed at most."""
@@ -47,6 +47,8 @@ def design_lines(settings: StudySettings, forms: Forms) -> Iterator[str]:
         forms=forms,
     ):
         yield f"  {'yes' if test.possible else 'no '}  {test.name}{test.told}"
+    if labelled_late(settings.round_phases):
+        yield f"  note: {LABELLED_LATE}"
 
 
 def _led(settings: StudySettings, which: int, name: str) -> str:

@@ -217,6 +217,13 @@ def _place(name: str, table: str) -> str:
     return f"data/{APART}/{name}" if table == FREE_TEXT else f"data/{name}"
 
 
+_DONE = {
+    "memorise": "memorised a map",
+    "label": "labelled its rooms",
+    "mission": "played a rescue mission",
+}
+
+
 def _task(settings: StudySettings) -> str:
     """What participants did, in a sentence or two."""
     if settings.instructors is None and settings.rounds == 2:
@@ -225,10 +232,9 @@ def _task(settings: StudySettings) -> str:
             "rescue mission in each: one with a static and one with an adaptive instructor."
         )
     first, second = settings.instructors or ("static", settings.coach)
-    done = {"memorise": "memorised a map", "label": "labelled its rooms", "mission": "played"}
-    did = ", ".join(done[phase] for phase in settings.round_phases)
+    did = ", ".join(_DONE[phase] for phase in settings.round_phases if phase in _DONE)
     return (
-        f"Rounds: {settings.rounds}. In each, participants {did} a rescue mission, led by one of "
+        f"Rounds: {settings.rounds}. In each, participants {did}. The missions were led by one of "
         f"two instructors: {first} (`static` in the tables) or {second} (`adaptive`)."
     )
 
