@@ -44,6 +44,7 @@ from analysis.stats.power import power_rows
 from analysis.stats.preferred import preferred_rows
 from analysis.stats.reliability import alpha_rows
 from analysis.stats.robust import SEED as PERMUTATION_SEED
+from analysis.stats.rounds import rounds_rows
 from analysis.stats.sensitivity import continuous_rows, exclusion_rows, other_grouping_rows
 from game.journal.records import StudyMode
 from game.tables.exclusions import ExclusionRules, read_rules
@@ -193,6 +194,7 @@ def outcome_rows(
     return rows | {
         "paired": attempt(paired_row, people, alpha),
         "lmm": attempt(mixed_model, study, outcome),
+        "rounds": attempt(rounds_rows, study, outcome),
     }
 
 

@@ -70,6 +70,8 @@ def _outcome(
         )
         lines += [_anova_line(outcome, row, holm) for row in rows["anova"][1:]]
     lines += _comparisons(rows, numbers["source"]["alpha_level"], crossed)
+    if rows["rounds"] is not None:
+        lines += _all_rounds(rows["rounds"], crossed)
     if rows["paired"] is not None:
         paired = rows["paired"]
         lines.append(
@@ -104,6 +106,24 @@ def _comparisons(rows: Mapping[str, Any], alpha: float, crossed: Crossed) -> lis
         for where, row in (*within, *between)
         if row["p_holm"] is not None and row["p_holm"] < alpha
     ]
+
+
+def _all_rounds(rows: Mapping[str, Any], crossed: Crossed) -> list[str]:
+    """The means of every round, and what the mixed model over all of them finds."""
+    words = dict(zip(ADAPTIVITY, crossed.words, strict=True))
+    means = ", ".join(
+        f"{row['round']} {words[row['adaptivity']]} {row['mean']:.2f} (n = {row['n']})"
+        for row in rows["means"]
+    )
+    lines = [f"  every round: {means}"]
+    if rows["lmm"] is None:
+        return lines
+    tests = ", ".join(
+        f"{row['effect']} F({row['df1']}, {row['df2']:.1f}) = {row['F']:.2f}, p {p_value(row['p'])}"
+        for row in rows["lmm"]["anova"]
+        if row["effect"] in ("adaptivity", "round", "building")
+    )
+    return [*lines, f"  mixed model over all rounds: {tests}"]
 
 
 def _at(row: Mapping[str, Any], crossed: Crossed) -> str:

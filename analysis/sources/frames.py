@@ -34,7 +34,11 @@ Ints: TypeAlias = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class StudyData:
-    """Tidy tables of one study, in a fixed order of rows; `notes` say what a reader must know."""
+    """Tidy tables of one study, in a fixed order of rows; `notes` say what a reader must know.
+
+    `every_round` has a `round` besides, and all rounds where an instructor has more than one, of
+    which `rounds` has the first; else it is None.
+    """
 
     participants: pd.DataFrame
     rounds: pd.DataFrame
@@ -43,6 +47,7 @@ class StudyData:
     notes: tuple[str, ...] = ()
     asked: Outcomes = PAPER
     crossed: Crossed = PAPER_DESIGN
+    every_round: pd.DataFrame | None = None
 
     @property
     def outcomes(self) -> tuple[str, ...]:
@@ -74,7 +79,8 @@ class StudyData:
         return replace(
             self,
             participants=self.participants.drop(index=gone),
-            rounds=self.rounds[~self.rounds["participant"].isin(gone)].reset_index(drop=True),
+            rounds=_kept(self.rounds, gone),
+            every_round=None if self.every_round is None else _kept(self.every_round, gone),
         )
 
     def with_groups(self, knowledge: pd.Series) -> "StudyData":
@@ -91,6 +97,10 @@ class StudyData:
     def noted(self, *notes: str) -> "StudyData":
         """The same study with more notes."""
         return replace(self, notes=(*self.notes, *notes))
+
+
+def _kept(rows: pd.DataFrame, gone: list[str]) -> pd.DataFrame:
+    return rows[~rows["participant"].isin(gone)].reset_index(drop=True)
 
 
 def make_study(

@@ -73,19 +73,25 @@ class Recorded:
         asked = outcomes_of(self.forms)
         every = self.frame("rounds").sort_values("round", kind="stable")
         repeated = every.duplicated(["participant", "adaptivity"])
-        every = every[~repeated].sort_index()
         wanted = (*MENTAL_STATES, *LIKERT_ITEMS, *asked.ranges, *asked.composites)
         columns = dict.fromkeys((*ROUND, *(name for name in wanted if name in every.columns)))
         person = (*PERSON, *(name for name in PERSON_ASKED if name in people.columns))
         study = make_study(
             people[list(person)],
-            every[list(columns)],
+            every[~repeated].sort_index()[list(columns)],
             label=self.label,
             simulated=self.simulated,
             asked=asked,
             crossed=self.crossed,
         )
-        more = ["the first round with each instructor is analysed"] if repeated.any() else []
+        more = []
+        if repeated.any():
+            more = [
+                "the paper's tests compare two rounds a person: they take the first with each "
+                "instructor; `rounds` of each outcome has the mixed model over all rounds"
+            ]
+            known = every[every["participant"].isin(people.index)]
+            study = replace(study, every_round=known[["round", *columns]].reset_index(drop=True))
         return study.noted(*self.notes, *more, *_unfinished(self.frame("participants")))
 
 

@@ -6,6 +6,7 @@ factors with Satterthwaite degrees of freedom from the observed information (Fai
 1996; Kuznetsova et al., 2017).
 """
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,7 +74,7 @@ def sum_coded(rows: pd.DataFrame, levels: tuple[str, ...] = COMPLEXITY) -> Desig
     """Sum-code the three factors of `rows` (columns participant and the factors); `levels` are the
     static levels of the design, and one alone has no effects."""
     factors = {"knowledge": KNOWLEDGE, "complexity": levels, "adaptivity": ADAPTIVITY}
-    main = {name: _sum_columns(rows[name], values) for name, values in factors.items()}
+    main = {name: sum_columns(rows[name], values) for name, values in factors.items()}
     columns = ["(Intercept)"]
     parts = [np.ones(len(rows))]
     effects: dict[str, list[int]] = {}
@@ -96,7 +97,8 @@ def sum_coded(rows: pd.DataFrame, levels: tuple[str, ...] = COMPLEXITY) -> Desig
     return Design(np.column_stack(parts), tuple(columns), effects, person)
 
 
-def _sum_columns(values: pd.Series, levels: tuple[str, ...]) -> list[Floats]:
+def sum_columns(values: pd.Series, levels: tuple[Hashable, ...]) -> list[Floats]:
+    """One column for each level but the last, which is -1 in all of them."""
     last = (values == levels[-1]).to_numpy(dtype=float)
     return [(values == level).to_numpy(dtype=float) - last for level in levels[:-1]]
 
@@ -290,15 +292,20 @@ def mixed_model(study: StudyData, outcome: str) -> Row:
 
 def _effect_rows(fit: MixedFit, design: Design) -> Row:
     errors = np.sqrt(np.diag(fit.covariance))
-    tests = {effect: _f_test(fit, columns) for effect, columns in design.effects.items()}
     return {
         "reml_loglik": fit.loglik,
         "fixef": [
             {"term": term, "est": float(estimate), "se": float(error)}
             for term, estimate, error in zip(design.columns, fit.beta, errors, strict=True)
         ],
-        "anova": [
-            {"effect": effect, "F": f, "df1": q, "df2": df2, "p": p}
-            for effect, (f, q, df2, p) in tests.items()
-        ],
+        "anova": effect_tests(fit, design),
     }
+
+
+def effect_tests(fit: MixedFit, design: Design) -> list[Row]:
+    """A Type III F test of each effect."""
+    tests = {effect: _f_test(fit, columns) for effect, columns in design.effects.items()}
+    return [
+        {"effect": effect, "F": f, "df1": q, "df2": df2, "p": p}
+        for effect, (f, q, df2, p) in tests.items()
+    ]
