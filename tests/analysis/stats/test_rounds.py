@@ -9,7 +9,7 @@ import pytest
 import statsmodels.formula.api as smf
 
 from analysis.battery import run_battery
-from analysis.pages.figures import every_round
+from analysis.pages.rounds_figure import every_round
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import StudyData
 from analysis.stats.rounds import rounds_rows
