@@ -4,7 +4,7 @@
 """
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -32,7 +32,7 @@ def notebooks() -> list[Path]:
     return sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb"))
 
 
-def executed(paths: Sequence[Path], source: Path | None = None) -> Iterator[tuple[Path, Notebook]]:
+def executed(paths: Iterable[Path], source: Path | None = None) -> Iterator[tuple[Path, Notebook]]:
     """Each notebook with its outputs, run on `source`, or on its own parameter.
 
     Raises nbclient.exceptions.CellExecutionError, which shows the cell, where one fails.

@@ -8,12 +8,16 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ProcessPoolExecutor
 from html import escape
+from os import cpu_count
 from pathlib import Path
 from time import monotonic
+from typing import TypeAlias
 
 import click
+import pandas as pd
 
 from analysis.battery import run_battery, signed
 from analysis.execute import executed, html, notebooks, title, write
@@ -31,9 +35,12 @@ PARTICIPANTS_EACH = 48
 SEED = 2024
 #: Some of whom leave early.
 PEOPLE = "as-they-come"
-BLOCK = 24
 MADE = ("study", "presets", "tables", "figures", "notebooks", "report")
-DEFAULT_PRESET = 'preset = "floodfill"'
+#: The notebook about the studies that are simulated meanwhile.
+COMPARING = "09_behaviour"
+
+Say: TypeAlias = Callable[[str], None]
+Others: TypeAlias = Mapping[Key, Future[pd.DataFrame]]
 
 
 @click.command()
@@ -51,16 +58,25 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
 
     for name in MADE:
         shutil.rmtree(out / name, ignore_errors=True)
+    keys = [(preset, people) for preset in PRESETS for people in POPULATIONS] if each else []
     say(f"A study of {participants} simulated people")
     _simulate(out / "study", participants, seed, "--population", PEOPLE)
+    pool = ProcessPoolExecutor(cpu_count())
+    try:
+        if keys:
+            say(f"Meanwhile {len(PRESETS)} presets, each with {' and '.join(POPULATIONS)} people")
+        others = {key: pool.submit(_other, out / "presets", each, seed, key) for key in keys}
+        _analyse(out, others, say)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _analyse(out: Path, others: Others, say: Say) -> None:
+    """Make everything of the study in OUT; `others` are the missions of the other studies."""
     say("Playing every mission again from its actions, and reading the journals")
     recorded = _read(out / "study")
     for path in write_tables(recorded, out / "tables"):
         say(str(path))
-    if each:
-        say(f"{len(PRESETS)} presets, each with {' and '.join(POPULATIONS)} people")
-        table = missions_of(dict(_preset_studies(out / "presets", each, seed)))
-        say(str(write_missions(table, out / "tables")))
     say("Every statistic")
     result = run_battery(recorded.study(), read_rules())
     made = signed(result, out / "study", None, "simulated", verified=True)
@@ -69,25 +85,31 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
     say("The notebooks")
     (out / "report").mkdir(parents=True, exist_ok=True)
     pages = []
-    for path, notebook in executed(notebooks(), out / "tables"):
+    for path, notebook in executed(_in_turn(out / "tables", others), out / "tables"):
         write(notebook, out / "notebooks" / path.name)
         page = out / "report" / f"{path.stem}.html"
         page.write_text(html(notebook), encoding="utf-8")
         pages.append((page.name, title(notebook)))
         say(str(page))
     index = out / "report" / "index.html"
-    index.write_text(_index(pages), encoding="utf-8")
+    index.write_text(_index(sorted(pages)), encoding="utf-8")
     say(f"Open {index}")
 
 
-def _simulate(folder: Path, participants: int, seed: int, *more: str) -> None:
-    count = ("--participants", str(participants))
-    _ana("simulate", str(folder), *count, "--seed", str(seed), *more)
+def _in_turn(tables: Path, others: Others) -> Iterator[Path]:
+    """The notebooks; the one about the other studies comes last, when these are in `tables`."""
+    paths = {path.stem: path for path in notebooks()}
+    last = paths.pop(COMPARING)
+    yield from paths.values()
+    if others:
+        write_missions({key: missions.result() for key, missions in others.items()}, tables)
+    yield last
 
 
-def _ana(*arguments: str, quiet: bool = False) -> None:
-    """Run the command line; its failure, which it has told, ends the whole."""
-    command = [sys.executable, "-m", "game", *arguments]
+def _simulate(folder: Path, participants: int, seed: int, *more: str, quiet: bool = False) -> None:
+    """Run `ana simulate`; its failure, which it has told, ends the whole."""
+    command = [sys.executable, "-m", "game", "simulate", str(folder), "--seed", str(seed)]
+    command += ["--participants", str(participants), *more]
     out = subprocess.DEVNULL if quiet else None
     if status := subprocess.run(command, check=False, stdout=out).returncode:
         raise SystemExit(status)
@@ -98,27 +120,18 @@ def _read(folder: Path) -> Recorded:
 
         def tick(done: int, of: int) -> None:
             bar.length = of
-            bar.update(1)
+            bar.update(done - bar.pos)
 
         return read_study_folder(folder, "simulated", tick=tick)
 
 
-def _preset_studies(folder: Path, each: int, seed: int) -> Iterator[tuple[Key, Recorded]]:
-    for preset in PRESETS:
-        for people in POPULATIONS:
-            study = folder / f"{preset}-{people}"
-            blocks = str(-(-each // BLOCK))
-            _ana("study", "new", str(study), "--seed", str(seed), "--blocks", blocks, quiet=True)
-            _choose(study / "study.toml", preset)
-            _simulate(study, each, seed, "--population", people)
-            yield (preset, people), read_study_folder(study, "simulated", check=False)
-
-
-def _choose(settings: Path, preset: str) -> None:
-    text = settings.read_text(encoding="utf-8")
-    if DEFAULT_PRESET not in text:
-        raise ValueError(f"{settings}: no line {DEFAULT_PRESET}")
-    settings.write_text(text.replace(DEFAULT_PRESET, f'preset = "{preset}"'), encoding="utf-8")
+def _other(folder: Path, participants: int, seed: int, key: Key) -> pd.DataFrame:
+    """The missions of the study of one preset and kind of people, made by this process alone."""
+    preset, people = key
+    study = folder / f"{preset}-{people}"
+    more = ("--preset", preset, "--population", people, "--jobs", "1")
+    _simulate(study, participants, seed, *more, quiet=True)
+    return missions_of(read_study_folder(study, "simulated", check=False, jobs=1))
 
 
 def _index(pages: list[tuple[str, str]]) -> str:

@@ -20,20 +20,20 @@ BY = ["preset", "people"]
 Key = tuple[str, str]
 
 
-def missions_of(studies: Mapping[Key, Recorded]) -> pd.DataFrame:
-    """The missions of all studies, each by preset and kind of people, as `missions` has them.
-    Groups are formed in each study, and nobody is left out: whether somebody disobeys
-    depends on the preset."""
-    parts = []
-    for (preset, people), recorded in studies.items():
-        study, _ = grouped(recorded.study())
-        parts.append(missions(recorded, study).assign(preset=preset, people=people))
-    return pd.concat(parts, ignore_index=True)
+def missions_of(recorded: Recorded) -> pd.DataFrame:
+    """The missions of one study, as `missions` has them. Groups are formed in it, and nobody is
+    left out: whether somebody disobeys depends on the preset."""
+    study, _ = grouped(recorded.study())
+    return missions(recorded, study)
 
 
-def write_missions(table: pd.DataFrame, folder: Path) -> Path:
-    """Write what `missions_of` gave into `folder`."""
+def write_missions(studies: Mapping[Key, pd.DataFrame], folder: Path) -> Path:
+    """Write the missions of several studies, each by preset and kind of people, into `folder`."""
+    parts = [
+        part.assign(preset=preset, people=people) for (preset, people), part in studies.items()
+    ]
     path = folder / FILE
+    table = pd.concat(parts, ignore_index=True)
     text = table.to_csv(index=False, lineterminator="\n", float_format="%.9g")
     path.write_bytes(gzip.compress(text.encode(), 9, mtime=0))
     return path

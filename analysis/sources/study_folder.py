@@ -1,9 +1,10 @@
 """Reads the journals of a study folder, through `game.session` alone."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from math import ceil
 from os import cpu_count
 from pathlib import Path
 
@@ -15,12 +16,14 @@ from game.forms.reading import BLANK, FORMS, ITEMS, paper_forms, read_forms
 from game.journal.folders import SESSIONS, journals, misplaced
 from game.journal.reader import read_journal
 from game.journal.records import STUDY_MODES, StudyMode
-from game.session.verification import verify
+from game.session.verification import verify_transcript
 from game.tables.columns import cells
-from game.tables.session_tables import session_tables
+from game.tables.session_tables import tables_of
 
 #: From so many journals on they are read by several processes.
 MANY = 4
+#: So many journals at most are handed to a process at a time; their buildings are parsed once.
+HANDFUL = 9
 #: So many journals that do not verify are named.
 NAMED = 3
 
@@ -44,10 +47,12 @@ def read_study_folder(
     *,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
+    jobs: int | None = None,
 ) -> Recorded:
     """The sessions of one mode in a study folder; without `mode`, of the only one there is.
 
-    With `check` every mission is played again from its actions and must come out as recorded.
+    With `check` every mission is played again from its actions and must come out as recorded. They
+    are read by `jobs` processes, one a core if not said.
     Raises SourceError or JournalError, naming the place and a hint.
     """
     mode = mode_of(folder, mode)
@@ -59,7 +64,7 @@ def read_study_folder(
             hint=f"Take those that there are: {_there_are(folder)}",
         )
     forms = forms_of(folder)
-    read = _read_all(folder, mode, paths, check, forms, tick)
+    read = _read_all(paths, partial(_read, folder, mode, check, forms), tick, jobs)
     _refuse_changed(read)
     frames = {
         name: typed(name, [row for one in read for row in one.cells[name]], forms)
@@ -124,36 +129,47 @@ def _options(modes: Sequence[StudyMode]) -> str:
 
 
 def _read_all(
-    folder: Path,
-    mode: StudyMode,
     paths: Sequence[Path],
-    check: bool,
-    forms: Forms,
+    read_some: Callable[[Sequence[Path]], list[_Read]],
     tick: Tick,
+    jobs: int | None,
 ) -> list[_Read]:
+    cores = jobs or cpu_count() or 1
+    size = min(HANDFUL, ceil(len(paths) / cores))
+    handfuls = [paths[at : at + size] for at in range(0, len(paths), size)]
+    if cores == 1 or len(paths) < MANY:
+        return _told_of(map(read_some, handfuls), tick, len(paths))
+    with ProcessPoolExecutor(min(len(handfuls), cores)) as pool:
+        return _told_of(pool.map(read_some, handfuls), tick, len(paths))
+
+
+def _told_of(parts: Iterable[list[_Read]], tick: Tick, of: int) -> list[_Read]:
     read: list[_Read] = []
-    if len(paths) < MANY:
-        for path in paths:
-            read.append(_read(folder, mode, path, check, forms))
-            tick(len(read), len(paths))
-        return read
-    with ProcessPoolExecutor(min(len(paths), cpu_count() or 1)) as pool:
-        for one in pool.map(partial(_read, folder, mode, check=check, forms=forms), paths):
-            read.append(one)
-            tick(len(read), len(paths))
+    for part in parts:
+        read += part
+        tick(len(read), of)
     return read
 
 
-def _read(folder: Path, mode: StudyMode, path: Path, check: bool, forms: Forms) -> _Read:
-    transcript = read_journal(path)
-    wrong = misplaced(transcript.started, folder, mode, path.parent.name)
-    if wrong:
-        raise SourceError(wrong, place=str(path), hint="Put it back where it was recorded")
-    tables = session_tables(transcript, forms=forms)
-    difference = verify(path).difference if check else None
-    told = "" if difference is None else str(difference)
-    found = {name: [list(cells(row)) for row in tables.table(name)] for name in ANALYSED}
-    return _Read(path, found, transcript.started.versions.schema, told)
+def _read(
+    folder: Path, mode: StudyMode, check: bool, forms: Forms, paths: Sequence[Path]
+) -> list[_Read]:
+    transcripts = []
+    for path in paths:
+        transcript = read_journal(path)
+        wrong = misplaced(transcript.started, folder, mode, path.parent.name)
+        if wrong:
+            raise SourceError(wrong, place=str(path), hint="Put it back where it was recorded")
+        transcripts.append(transcript)
+    read = []
+    for path, transcript, tables in zip(
+        paths, transcripts, tables_of(transcripts, forms), strict=True
+    ):
+        difference = verify_transcript(transcript).difference if check else None
+        told = "" if difference is None else str(difference)
+        found = {name: [list(cells(row)) for row in tables.table(name)] for name in ANALYSED}
+        read.append(_Read(path, found, transcript.started.versions.schema, told))
+    return read
 
 
 def _refuse_changed(read: Sequence[_Read]) -> None:
