@@ -1,5 +1,6 @@
 """The paper's Figs. 7, 8 and 9 from tidy tables, and the estimates behind its ANOVA."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from textwrap import fill
 
@@ -286,23 +287,24 @@ def cells_figure(study: StudyData, outcome: str, alpha: float = ALPHA) -> Captio
         )
 
 
-def figures_of(study: StudyData, alpha: float = ALPHA) -> list[Captioned]:
-    """Every figure that the study can fill, in the paper's order.
+def figures_of(study: StudyData, alpha: float = ALPHA) -> Iterator[Captioned]:
+    """Every figure that the study can fill, in the paper's order, each drawn when it is asked for.
 
     Without knowledge groups these are the overall estimates alone.
     """
-    rounds = [] if study.every_round is None else [every_round(study)]
-    if not study.has("knowledge"):
-        return [adaptivity_estimates(study, alpha), *rounds]
-    states = study.asked.mental_states
-    return [
-        *([fig7_mental_states(study, alpha)] if states and len(study.crossed.levels) > 1 else []),
-        fig8_performance(study),
-        *([fig9_adaptivity(study, first_state(study), alpha)] if states else []),
-        adaptivity_estimates(study, alpha),
-        *(cells_figure(study, outcome, alpha) for outcome in study.outcomes),
-        *rounds,
-    ]
+    if study.has("knowledge"):
+        states = study.asked.mental_states
+        if states and len(study.crossed.levels) > 1:
+            yield fig7_mental_states(study, alpha)
+        yield fig8_performance(study)
+        if states:
+            yield fig9_adaptivity(study, first_state(study), alpha)
+    yield adaptivity_estimates(study, alpha)
+    if study.has("knowledge"):
+        for outcome in study.outcomes:
+            yield cells_figure(study, outcome, alpha)
+    if study.every_round is not None:
+        yield every_round(study)
 
 
 def first_state(study: StudyData) -> str:
@@ -319,7 +321,7 @@ def write_figures(
     Raises OSError where the folder cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    return save_figures(figures_of(study, alpha), folder, origin)
+    return save_figures(list(figures_of(study, alpha)), folder, origin)
 
 
 def _inside(pair: Paired, group: str, level: str) -> NDArray[np.bool_]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -16,7 +17,7 @@ from analysis.pages.style import (
     quiet_style,
 )
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
-from analysis.sources.frames import StudyData
+from analysis.sources.frames import Floats, StudyData
 from analysis.sources.recorded import Recorded
 
 SECONDS = 1000.0
@@ -94,14 +95,15 @@ def all_traces(recorded: Recorded, study: StudyData) -> Captioned:
             place = {who: at for at, who in enumerate(people)}
             for level in COMPLEXITY:
                 part = own[own["level"] == level]
-                axes.barh(
-                    part["participant"].map(place),
-                    (part["until_ms"] - part["from_ms"]) / SECONDS,
-                    left=part["from_ms"] / SECONDS,
-                    height=1.0,
-                    color=LEVEL_COLOURS[level],
-                    linewidth=0,
+                rows = part["participant"].map(place)
+                axes.add_collection(
+                    PolyCollection(
+                        list(_strips(rows, part["from_ms"] / SECONDS, part["until_ms"] / SECONDS)),
+                        facecolors=LEVEL_COLOURS[level],
+                        linewidths=0,
+                    )
                 )
+            axes.autoscale_view()
             axes.grid(visible=False)
             axes.set_yticks([])
             axes.set_ylim(-0.5, max(1, len(people)) - 0.5)
@@ -119,3 +121,11 @@ def all_traces(recorded: Recorded, study: StudyData) -> Captioned:
             "and how often a row changes.",
             simulated=study.simulated,
         )
+
+
+def _strips(rows: pd.Series, begins: pd.Series, ends: pd.Series) -> Floats:
+    """The corners of a strip in each of these rows from its begin to its end: n x 4 x 2."""
+    at, low, high = (values.to_numpy(dtype=float) for values in (rows, begins, ends))
+    x = np.column_stack([low, high, high, low])
+    y = at[:, None] + np.array([-0.5, -0.5, 0.5, 0.5])
+    return np.stack([x, y], axis=-1)

@@ -211,8 +211,10 @@ class Paired:
 
 def both_rounds(study: StudyData, outcome: str) -> pd.DataFrame:
     """Columns static and adaptive of one outcome by participant, listwise (no NaN)."""
-    columns = pd.MultiIndex.from_product([[outcome], ADAPTIVITY])
-    return study.by_round.reindex(columns=columns).droplevel(0, axis=1).dropna()
+    rounds = study.by_round
+    missing = pd.Series(np.nan, index=rounds.index)
+    answers = {name: rounds.get((outcome, name), missing) for name in ADAPTIVITY}
+    return pd.DataFrame(answers).dropna()
 
 
 def paired(study: StudyData, outcome: str) -> Paired:

@@ -7,6 +7,7 @@ levels are dealt evenly; knowledge groups fall at random in the given shares, so
 and a sample with an empty cell counts as no detection.
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -120,10 +121,11 @@ def simulated_power(
 
 def sample_size(effect: str, pes: float, power: float, alpha: float = 0.05) -> int:
     """The least number of people with this analytic power at equal cells."""
-    n = len(CELLS) + 1
-    while analytic_power(effect, pes, n, alpha) < power:
-        n += 1
-    return n
+    least, enough = len(CELLS) + 1, 2 * len(CELLS)
+    while analytic_power(effect, pes, enough, alpha) < power:
+        enough *= 2
+    sizes = range(least, enough + 1)
+    return sizes[bisect_left(sizes, power, key=lambda n: analytic_power(effect, pes, n, alpha))]
 
 
 def power_rows(shares: Sequence[float] = EVEN, sizes: Sequence[int] = SAMPLE_SIZES) -> Row:

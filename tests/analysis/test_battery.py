@@ -11,7 +11,9 @@ import pandas as pd
 import pytest
 
 from analysis.battery import BatteryResult, analyse_source, run_battery
+from analysis.pages import style
 from analysis.pages.figures import fig8_performance
+from analysis.pages.style import FORMATS
 from analysis.sources.absent import Absent, SourceError, plain
 from analysis.sources.factors import LIKERT_ITEMS, MENTAL_STATES, OUTCOMES
 from analysis.sources.frames import StudyData
@@ -301,20 +303,23 @@ def test_a_number_without_a_reason_is_never_written() -> None:
     assert plain({"a": [Absent("why"), 2]}) == ({"a": [None, 2]}, {"a[0]": "why"})
 
 
-def test_from_file_to_figures(tmp_path: Path, table: pd.DataFrame) -> None:
+def test_from_file_to_figures(
+    tmp_path: Path, table: pd.DataFrame, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(style, "FORMATS", {"svg": FORMATS["svg"]})  # the others: test_figures
     source = tmp_path / "long.csv"
     table.to_csv(source, index=False)
     result = analyse_source(source, figures=tmp_path / "figures")
-    drawn = {path.name for path in (tmp_path / "figures").glob("*.png")}
+    drawn = {path.name for path in (tmp_path / "figures").glob("*.svg")}
     assert drawn == {
-        "fig7_mental_states.png",
-        "fig8_performance.png",
-        "fig9_engagement.png",
-        "adaptivity_estimates.png",
-        *(f"cells_{outcome}.png" for outcome in OUTCOMES),
+        "fig7_mental_states.svg",
+        "fig8_performance.svg",
+        "fig9_engagement.svg",
+        "adaptivity_estimates.svg",
+        *(f"cells_{outcome}.svg" for outcome in OUTCOMES),
     }
     captions = (tmp_path / "figures" / "captions.txt").read_text(encoding="utf-8")
-    assert all(name.removesuffix(".png") in captions for name in drawn)
+    assert all(f"\n{captions}".count(f"\n{name.removesuffix('.svg')}\n") == 1 for name in drawn)
     assert result.exit_status == 0
 
 
