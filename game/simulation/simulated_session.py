@@ -141,12 +141,12 @@ class HeldStudy(Study):
     def keep_copies(self) -> None:
         pass
 
-    def yoke_for(self, identity: Identity, building: Building) -> Yoke:
+    def yoke_for(self, identity: Identity, building: Building, memorise_ms: int) -> Yoke:
         """The levels that another simulated person was told: sessions are made at the same time,
         so none of them could be waited for."""
-        other = next(it for it in self.settings.pair if not it.takes("yoke"))
+        other = self.settings.yoked_to
+        assert other is not None
         who = self.settings.seed, identity.participant, "donor", building.name
-        memorise_ms = self.settings.memorise_ms(self.taken.cell.memorise)
         return simulated_donor(self.settings, other, building, memorise_ms, who)
 
     @property

@@ -146,12 +146,14 @@ class Study:
         """The folder of one participant's session."""
         return self.folder / SESSIONS / identity.mode / identity.participant
 
-    def yoke_for(self, identity: Identity, building: Building) -> Yoke:
-        """The levels that a yoked instructor repeats for a participant in a building."""
-        other = next(it for it in self.settings.pair if not it.takes("yoke"))
-        modes: tuple[StudyMode, ...] = (identity.mode, "pilot")
+    def yoke_for(self, identity: Identity, building: Building, memorise_ms: int) -> Yoke:
+        """The levels that a yoked instructor repeats for a participant in a building that they
+        memorised for so long."""
+        other = self.settings.yoked_to
+        assert other is not None
+        modes = tuple(dict.fromkeys((identity.mode, "pilot")))
         seed = self.settings.seed
-        return donated(self.folder, modes, identity.participant, building, other, seed)
+        return donated(self.folder, modes, identity.participant, building, other, memorise_ms, seed)
 
     def building(self, name: str) -> Building:
         """The mission building that the settings call `name`."""

@@ -207,6 +207,14 @@ class StudySettings(_Section, frozen=True):
         return first, second
 
     @property
+    def yoked_to(self) -> Instructor | None:
+        """The instructor whose levels the other one repeats, where one does that."""
+        first, second = self.pair
+        if first.takes("yoke"):
+            return second
+        return first if second.takes("yoke") else None
+
+    @property
     def design(self) -> Design:
         """What is crossed. A factor that changes nothing has one value: the static level where no
         instructor takes it, the memorise time where nothing is memorised."""

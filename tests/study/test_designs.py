@@ -16,9 +16,10 @@ from game.coach.yoke import LevelFrom, Yoke
 from game.journal.history import Step
 from game.journal.records import Allocated, MissionStarted
 from game.study.design import PAPER, Design, balances, design_cell
-from game.study.donors import NOBODY
+from game.study.donors import NOBODY, without_donor
 from game.study.folder import Identity, Study, open_study
 from game.study.instructors import Instructor, instructor_named
+from game.study.lab.hindrances import Hindrances
 from game.study.ledger import NoPlace
 from game.study.power import power_of, smallest_effect
 from game.study.study_settings import SettingsError
@@ -176,6 +177,38 @@ def test_a_yoked_instructor_repeats_somebody_elses_levels(tmp_path: Path) -> Non
     ]
     (yoke,) = yokes
     assert yoke is not None
+    assert yoke.session != NOBODY
+
+
+def test_the_levels_of_somebody_who_memorised_as_long_come_first(tmp_path: Path) -> None:
+    study = with_settings(
+        tmp_path / "study",
+        instructors='["ana", "yoked"]',
+        phases='["consent", "rounds", "debrief"]',
+    )
+    ana = study.settings.yoked_to
+    assert ana == Instructor("ana")
+    (told,) = (it for it in Hindrances(study.folder).look(study.ledger.entries()) if "pilot" in it)
+    assert "no pilot has finished a mission with ana in Foundry Court or Harbour House" in told
+    lent: dict[str, set[int]] = {building.name: set() for building in study.buildings}
+    for number in range(8):
+        identity = Identity("pilot", f"T{number}")
+        take_part(study, identity)
+        for entry in journal_of(study, identity).entries:
+            if isinstance(entry.record, Allocated):
+                allocated = entry.record
+            if isinstance(entry.record, MissionStarted) and entry.record.coach.kind == "ana":
+                lent[entry.record.building].add(allocated.memorise_ms)
+    assert set(map(len, lent.values())) == {2}
+    assert not without_donor(study.folder, study.buildings, ana)
+    assert "pilot" not in " ".join(Hindrances(study.folder).look(study.ledger.entries()))
+    for building in study.buildings:
+        for memorise_ms in (3_000, 5_000):
+            for seen in range(5):
+                yoke = study.yoke_for(Identity("live", f"P{seen}"), building, memorise_ms)
+                assert yoke.memorise_ms == memorise_ms
+        other = study.yoke_for(Identity("live", "P01"), building, 9_000)
+        assert other.memorise_ms in (3_000, 5_000)
     assert yoke.session != NOBODY
     assert "P0" not in yoke.session
 

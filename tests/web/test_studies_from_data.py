@@ -13,9 +13,10 @@ from game.forms.items import AnyQuestion, ChoiceItem, NumberItem, ScaleItem, Sli
 from game.journal.records import MissionStarted, QuestionnaireAnswer, SessionEnded
 from game.screens.study.form_screen import FormScreen
 from game.study.course import course
+from game.study.donors import without_donor
 from game.study.folder import Identity, Study, new_study, open_study
 from tests.study.participant import TerminalParticipant
-from tests.study.people import journal_of, with_settings
+from tests.study.people import journal_of, take_part, with_settings
 from tests.study.server import ANA, BY_KEY, SSH, SSHD, Server, login
 from tests.study.test_ssh_session import CHECK, QUICK
 from tests.web.chromium import CHROMIUM, Chromium
@@ -146,6 +147,11 @@ def test_a_study_made_from_data_is_carried_to_its_end(
     made: Callable[[Path], Study], line: Callable[[Study, Path], None], tmp_path: Path
 ) -> None:
     study = with_settings(made(tmp_path / "study"), QUICK)
+    if other := study.settings.yoked_to:
+        assert main(["study", "check", str(study.folder)]) == 2, "no pilot has been"
+        for number in range(8):
+            take_part(study, Identity("pilot", f"T{number}"))
+        assert not without_donor(study.folder, study.buildings, other)
     assert main(["study", "check", str(study.folder)]) == 0
     line(study, tmp_path / "keys")
     records = [entry.record for entry in journal_of(study, P01).entries]

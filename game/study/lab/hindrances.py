@@ -11,6 +11,7 @@ from game.errors import AnaError
 from game.journal.folders import JOURNAL, folders_of, has_journal, misplaced
 from game.journal.reader import read_journal
 from game.journal.records import STUDY_MODES, StudyMode
+from game.study.donors import without_donor
 from game.study.folder import ROSTER, Study, open_study, roster_of
 from game.study.lab.sessions import places_without_a_session, without_a_place
 from game.study.ledger import (
@@ -52,6 +53,7 @@ def _all(folder: Path, entries: Sequence[LedgerEntry], cached: _Cached) -> Itera
     else:
         yield from _unrecorded(study, entries)
         yield from _room(study)
+        yield from _yoked(study)
     yield from _roster(folder)
     for mode in STUDY_MODES:
         yield from _sessions(folder, mode, entries, cached)
@@ -64,6 +66,19 @@ def _room(study: Study) -> Iterator[str]:
         yield (
             f"the disk is nearly full: {free_mb} MB are left, and there should be {least_mb} "
             "(least_free_mb in study.toml)"
+        )
+
+
+def _yoked(study: Study) -> Iterator[str]:
+    """Where the first participants would have nobody's levels to repeat. Pilots alone are asked:
+    what live sessions have done is nobody's business while the study is open."""
+    other = study.settings.yoked_to
+    lacking = () if other is None else without_donor(study.folder, study.buildings, other)
+    if lacking and other is not None:
+        yield (
+            f"no pilot has finished a mission with {other.kind} in {' or '.join(lacking)}: who is "
+            "led by yoked there before anybody else has finished one is told C2 throughout. Run "
+            "another pilot"
         )
 
 

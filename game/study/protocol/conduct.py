@@ -273,7 +273,9 @@ async def _mission(session: StudySession, who: Participant, step: Step, _seen_ms
     leads = study.settings.pair[allocated.second_leads(step.round)]
     yoke = None
     if leads.takes("yoke"):
-        yoke = await asyncio.to_thread(study.yoke_for, session.identity, building)
+        yoke = await asyncio.to_thread(
+            study.yoke_for, session.identity, building, allocated.memorise_ms
+        )
     spec = instructor(allocated, step.round, study.settings, quiz, yoke)
     task = Playing(session, building, spec, rules, f"round {step.round}")
     await who.play(task)
