@@ -1,7 +1,7 @@
 """How much there is to read in a text, in any language.
 
-Reading times are known for letters and words of English. Of the same texts, read aloud by natives of
-18 to 35 years, 987 characters or 228 words of English were read a minute, and 357 characters of
+Reading times are known for letters and words of English. In a minute natives of 18 to 35 years read
+987 characters or 228 words of an English text aloud, and 357 characters of the same text in
 Japanese (Trauzettel-Klosinski, Dietz & the IReST Study Group, 2012, Investigative Ophthalmology &
 Visual Science 53(9), 5452-5461, doi:10.1167/iovs.11-8284, Table 2). So a wide character (Chinese,
 Japanese, Korean) takes as long as 987/357 = 2.8 letters, here 3, and 357/228 = 1.6 of them take as
