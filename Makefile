@@ -56,7 +56,7 @@ contract: $(VENV)/all.stamp  ## check which room may import which
 reference:  ## compute the reference numbers of the statistics again with R, and compare
 	@command -v Rscript >/dev/null || { \
 	  echo "make reference needs R and its packages, and there is no 'Rscript' here." >&2; \
-	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,ordinal,jsonlite}" >&2; exit 2; }
+	  echo "On Debian and Ubuntu: sudo apt install r-base-core r-cran-{afex,emmeans,car,lmertest,psych,bayesfactor,ordinal,pbkrtest,jsonlite}" >&2; exit 2; }
 	@cd tests/reference && WRITE=$(WRITE) Rscript reference.R
 
 schema: $(VENV)/all.stamp  ## write the schema of journals from the types

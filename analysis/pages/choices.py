@@ -13,6 +13,7 @@ from analysis.stats.apa import bounded
 from analysis.stats.assumptions import assumption_rows, hc3_rows
 from analysis.stats.latent import latent_row
 from analysis.stats.level import ALPHA
+from analysis.stats.mixed import mixed_model
 from analysis.stats.order_effects import order_rows
 from analysis.stats.robust import permutation_rows, prior_rows, trimmed_row
 from analysis.stats.sensitivity import continuous_rows
@@ -137,6 +138,18 @@ def trimmed_table(study: StudyData, alpha: float = ALPHA) -> list[Row]:
     """adaptive - static by 20% trimmed means, a row an outcome that allows it."""
     found = {outcome: attempt(trimmed_row, study, outcome, alpha) for outcome in study.outcomes}
     return [{"outcome": name, **row} for name, row in found.items() if not isinstance(row, Absent)]
+
+
+def mixed_table(study: StudyData) -> list[Row]:
+    """Every effect of every outcome by the mixed model on all answered rounds, with both kinds of
+    degrees of freedom; outcomes whose model cannot be fitted are left out."""
+    rows: list[Row] = []
+    for outcome in study.outcomes:
+        model = attempt(mixed_model, study, outcome)
+        if isinstance(model, Absent) or not isinstance(model["anova"], list):
+            continue
+        rows += [{"outcome": outcome, **row} for row in model["anova"]]
+    return rows
 
 
 def latent_table(study: StudyData) -> list[Row]:

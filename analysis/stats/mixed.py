@@ -3,7 +3,7 @@
 REML for y = X b + u + e with var(u) = tau^2 a participant and var(e) = sigma^2 a row, profiled
 over the one ratio lambda = tau^2/sigma^2 (Bates et al., 2015); Type III F tests on sum-coded
 factors with Satterthwaite degrees of freedom from the observed information (Fai & Cornelius,
-1996; Kuznetsova et al., 2017).
+1996; Kuznetsova et al., 2017), and beside them those of Kenward and Roger.
 """
 
 from collections.abc import Hashable
@@ -16,6 +16,7 @@ from scipy import optimize, stats
 from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats, Ints, StudyData
+from analysis.stats.kenward_roger import KenwardRoger
 
 TERMS = (
     ("knowledge",),
@@ -54,6 +55,7 @@ class MixedFit:
     loglik: float
     covariance_slopes: tuple[Floats, Floats]
     variance_covariance: Floats
+    kenward_roger: KenwardRoger
     rows: int
 
     @property
@@ -172,7 +174,7 @@ def fit_random_intercept(y: Floats, x: Floats, person: Ints) -> MixedFit:
         raise Refusal("the rounds of a person differ by their cell's means alone")
     lam = share / (1 - share)
     beta, inverse, sigma2, loglik = profile.solve(lam)
-    slopes, information = _variance_information(profile, lam, sigma2, inverse)
+    slopes, information, expected = _variance_information(profile, lam, sigma2, inverse)
     if lam > 0 and bool((np.linalg.eigvalsh(information) <= 0).any()):
         raise Refusal("the likelihood is flat at its top, so the variances are not identified")
     return MixedFit(
@@ -183,18 +185,21 @@ def fit_random_intercept(y: Floats, x: Floats, person: Ints) -> MixedFit:
         loglik=loglik,
         covariance_slopes=slopes,
         variance_covariance=np.linalg.pinv(information).astype(float),
+        kenward_roger=expected,
         rows=len(y),
     )
 
 
 def _variance_information(
     profile: _Profile, lam: float, sigma2: float, inverse: Floats
-) -> tuple[tuple[Floats, Floats], Floats]:
-    """Slopes of the fixed effects' covariance, and the observed REML information.
+) -> tuple[tuple[Floats, Floats], Floats, KenwardRoger]:
+    """Slopes of the fixed effects' covariance, the observed REML information, and the adjustment
+    of Kenward and Roger, which is made from the expected one.
 
     With W = V^-1, P = W - W X C X' W and V_1, V_2 = dV/d(tau^2, sigma^2), the information is
-    y'P V_i P V_j P y - tr(P V_i P V_j)/2, and dC = C X' W V_i W X C. V is made of a block a person,
-    so nothing larger than rows x columns is ever held.
+    y'P V_i P V_j P y - tr(P V_i P V_j)/2 and is expected to be tr(P V_i P V_j)/2, and
+    dC = C X' W V_i W X C. V is made of a block a person, so nothing larger than rows x columns is
+    ever held.
     """
     covariance = sigma2 * inverse
     wx = profile.weighted(profile.x, lam) / sigma2
@@ -205,17 +210,20 @@ def _variance_information(
     bent = [part(wx) for part in parts]
     crossed = [wx.T @ part for part in bent]
     blocks = _block_traces(profile.counts, lam, sigma2)
-    information = np.empty((2, 2))
+    information, expected = np.empty((2, 2)), np.empty((2, 2))
+    doubly = np.empty((2, 2, *covariance.shape))
     for i in range(2):
         for j in range(2):
             outer = profile.weighted(tilted[j], lam) / sigma2
             outer = outer - wx @ (covariance @ (wx.T @ tilted[j]))
-            inner = bent[i].T @ (profile.weighted(bent[j], lam) / sigma2)
-            trace = blocks[i][j] - 2 * np.sum(covariance * inner)
+            doubly[i, j] = bent[i].T @ (profile.weighted(bent[j], lam) / sigma2)
+            trace = blocks[i][j] - 2 * np.sum(covariance * doubly[i, j])
             trace += np.sum((covariance @ crossed[i]) * (covariance @ crossed[j]).T)
+            expected[i, j] = trace / 2
             information[i, j] = float(tilted[i][:, 0] @ outer[:, 0]) - trace / 2
     slopes = [covariance @ cross @ covariance for cross in crossed]
-    return (slopes[0], slopes[1]), information
+    adjustment = KenwardRoger.of(covariance, np.array(crossed), doubly, expected)
+    return (slopes[0], slopes[1]), information, adjustment
 
 
 def _block_traces(counts: Floats, lam: float, sigma2: float) -> list[list[float]]:
@@ -303,9 +311,15 @@ def _effect_rows(fit: MixedFit, design: Design) -> Row:
 
 
 def effect_tests(fit: MixedFit, design: Design) -> list[Row]:
-    """A Type III F test of each effect."""
-    tests = {effect: _f_test(fit, columns) for effect, columns in design.effects.items()}
-    return [
-        {"effect": effect, "F": f, "df1": q, "df2": df2, "p": p}
-        for effect, (f, q, df2, p) in tests.items()
-    ]
+    """A Type III F test of each effect, by Satterthwaite and by Kenward and Roger (`_kr`)."""
+    rows: list[Row] = []
+    for effect, columns in design.effects.items():
+        f, q, df2, p = _f_test(fit, columns)
+        other = fit.kenward_roger.f_test(fit.beta, columns)
+        row: Row = {"effect": effect, "F": f, "df1": q, "df2": df2, "p": p}
+        if isinstance(other, Absent):
+            row |= {"F_kr": other, "df2_kr": other, "p_kr": other}
+        else:
+            row |= {"F_kr": other.F, "df2_kr": other.df2, "p_kr": other.p}
+        rows.append(row)
+    return rows

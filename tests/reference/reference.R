@@ -1,7 +1,7 @@
 # The reference numbers of this folder, by R: `make reference` computes them all again and fails when
 # one has moved; `make reference WRITE=1` writes them. Run from this folder.
 
-PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "ordinal", "jsonlite")
+PACKAGES <- c("afex", "emmeans", "car", "lmerTest", "psych", "BayesFactor", "ordinal", "pbkrtest", "jsonlite")
 absent <- PACKAGES[!vapply(PACKAGES, requireNamespace, logical(1), quietly = TRUE)]
 if (length(absent)) {
   debian <- paste0("r-cran-", tolower(absent), collapse = " ")
@@ -215,7 +215,9 @@ lmm_of <- function(data, outcome) {
   tests <- lapply(seq_along(terms), function(i) {
     picked <- diag(length(columns))[columns == i, , drop = FALSE]
     test <- contestMD(fit, picked)
-    list(effect = terms[i], F = test[["F value"]], df1 = test$NumDF, df2 = test$DenDF, p = test[["Pr(>F)"]])
+    kr <- KRmodcomp(fit, picked)$stats
+    list(effect = terms[i], F = test[["F value"]], df1 = test$NumDF, df2 = test$DenDF, p = test[["Pr(>F)"]],
+         F_kr = kr$Fstat, df2_kr = kr$ddf, p_kr = kr$p.value)
   })
   variances <- as.data.frame(VarCorr(fit))$vcov
   estimates <- coef(summary(fit))

@@ -96,6 +96,21 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
             "People count equally.",
         ),
         ApaTable(
+            "mixed_models",
+            "Mixed models of every answered round",
+            ("Outcome", "Effect", "*F*", "*df*", "*p*", "*F* KR", "*df* KR", "*p* KR"),
+            tuple(
+                (outcome, row["effect"], decimal(row["F"]), _dfs(row["df1"], row["df2"]),
+                 p_value(row["p"]), decimal(row["F_kr"]), _dfs(row["df1"], row["df2_kr"]),
+                 p_value(row["p_kr"]))
+                for outcome in study.outcomes
+                for row in (found.own(outcome)["lmm"] or {}).get("anova") or ()
+            ),
+            "A random intercept for each person, so that people with one round count too; Type III "
+            "tests. Degrees of freedom are Satterthwaite's, and under KR those of Kenward and "
+            "Roger, who also widen the errors for what is not known of the variances.",
+        ),
+        ApaTable(
             "latent",
             "The three-way effect on items as ordered answers, and on rescues out of a fixed "
             "number",
@@ -138,6 +153,10 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
         return tables, []
     shown = drawing(specification_figure, specifications, simulated=study.simulated, alpha=alpha)
     return tables, [shown]
+
+
+def _dfs(df1: int, df2: float | None) -> str:
+    return DASH if df2 is None else f"{df1}, {decimal(df2, 1)}"
 
 
 def _numbers(row: Row) -> Numbers:

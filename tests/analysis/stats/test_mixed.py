@@ -43,6 +43,8 @@ def test_complete_data_have_a_closed_form(study: StudyData, outcome: str) -> Non
         assert test["F"] == pytest.approx(effect.test.F, rel=1e-4)
         assert test["df2"] == pytest.approx(effect.test.df2, rel=1e-4)
         assert test["p"] == pytest.approx(effect.test.p, rel=1e-3)
+        assert test["F_kr"] == pytest.approx(effect.test.F, rel=1e-4)
+        assert test["df2_kr"] == pytest.approx(effect.test.df2, rel=1e-6)
 
 
 def _same_factors(name: str, names: dict[str, dict[str, float]]) -> str:
