@@ -10,10 +10,10 @@ import pytest
 from PIL import Image
 
 from game.cli import main
-from game.screens.study import rehearsal
+from game.screens.study import pictures, rehearsal
 from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
-from game.study.folder import Study, new_study, open_study
+from game.study.folder import Study, StudyError, new_study, open_study
 from game.study.lab.readiness import shortfalls
 
 
@@ -145,3 +145,12 @@ def test_a_primary_outcome_that_nothing_measures_is_told(folder: Path) -> None:
     assert len(told) == 2
     assert "Did you mean engagement?" in told[0]
     assert "forms.toml asks no such item" in told[1]
+
+
+def test_a_machine_without_the_font_is_told_which(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pictures, "_FONT", "No Such Mono")
+    with pytest.raises(StudyError, match="No Such Mono is not on this machine"):
+        write_pictures([], "Study", tmp_path / "pictures")
+    assert not (tmp_path / "pictures").exists()

@@ -100,7 +100,7 @@ def test_the_codebook_says_what_each_column_means(wide: Study) -> None:
 
 def test_the_items_are_in_their_order_and_rounds(wide: Study) -> None:
     phases = [step.phase for step in wide.course]
-    assert phases.index("mood.before") == phases.index("demographics") + 2
+    assert phases.index("mood.before") == phases.index("gaming_experience") + 1
     assert phases[-2:] == ["mood.at_the_end", "debrief"]
     assert phases.count("tlx") == 2
     assert phases.count("attention") == 1

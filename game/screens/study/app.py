@@ -22,7 +22,6 @@ from game.screens.study.mission_page import StudyMissionScreen
 from game.screens.study.pages import PageScreen
 from game.screens.study.preflight import PreflightScreen, WindowTooSmall, fits
 from game.screens.study.seat import ScreenParticipant
-from game.screens.widgets.dialogs import Question
 from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
 from game.screens.widgets.terminal import this_terminal
@@ -92,7 +91,7 @@ class StudyApp(Program, inherit_bindings=False):
         try:
             self._lock = SessionLock(home)
         except SessionBusy as busy:
-            if not await self.push_screen_wait(self._busy_question()):
+            if not await self.push_screen_wait(self.frame.busy_question()):
                 return
             silent_ms = busy.silent_ms
             self._lock = await asyncio.to_thread(take_over, home)
@@ -106,10 +105,6 @@ class StudyApp(Program, inherit_bindings=False):
                 await self.push_screen_wait(PageScreen(self.frame, goodbye))
         finally:
             self.release()
-
-    def _busy_question(self) -> Question:
-        words = self.study.texts.words
-        return Question(words.busy.title, words.busy.body.strip(), yes=words.go_on, no=words.no)
 
     def release(self) -> None:
         """Let go of the session, so that it can be continued."""

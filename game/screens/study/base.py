@@ -37,21 +37,30 @@ class Frame:
         """What stands on the keys."""
         return self.words.mission.keys
 
-    def question(self, title: str, text: str, *, yes: str, no: str) -> Question:
-        """A question that is answered by the study's own letters, too."""
-        return Question(title, text, yes=yes, no=no, keys=self.keys)
-
     def stop_question(self) -> Question:
         """Asks whether to stop taking part."""
         words = self.words
-        return self.question(
-            words.stop_title, words.stop_text, yes=words.stop_yes, no=words.stop_no
-        )
+        return self._question(words.stop_title, words.stop_text, words.stop_yes, words.stop_no)
 
     def decline_question(self) -> Question:
         """Asks whether someone really does not want to take part."""
         words = self.words
-        return self.question(words.decline_title, words.decline_text, yes=words.yes, no=words.no)
+        return self._question(words.decline_title, words.decline_text, words.yes, words.no)
+
+    def finish_question(self, unnamed: int) -> Question:
+        """Asks whether labelling is finished, with so many rooms that have no name."""
+        words = self.words
+        text = words.finish_text.replace("{count}", str(unnamed))
+        return self._question(words.finish_title, text, words.yes, words.no)
+
+    def busy_question(self) -> Question:
+        """Asks whether to continue here a session that is open elsewhere."""
+        busy = self.words.busy
+        return self._question(busy.title, busy.body.strip(), self.words.go_on, self.words.no)
+
+    def _question(self, title: str, text: str, yes: str, no: str) -> Question:
+        """A question that is answered by the study's own letters, too."""
+        return Question(title, text, yes=yes, no=no, keys=self.keys)
 
 
 class FixedStage(Vertical):

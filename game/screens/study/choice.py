@@ -49,10 +49,12 @@ class Choice(Canvas):
         self._draw()
 
     def move(self, way: int) -> None:
-        """Mark the next option, and stay at the first and last; at first, these."""
-        last = len(self.options) - 1
-        before = self.chosen if self.chosen is not None else (-1 if way > 0 else last + 1)
-        self.choose(max(0, min(last, before + way)))
+        """Mark the next option, and stay at the first and last. While none is marked, down marks
+        the first and up does nothing."""
+        before = -1 if self.chosen is None else self.chosen
+        after = min(len(self.options) - 1, before + way)
+        if after >= 0:
+            self.choose(after)
 
     def on_resize(self) -> None:
         self._draw()
@@ -124,7 +126,8 @@ class ChoiceScreen(StudyScreen[int]):
 
     def action_move(self, way: int) -> None:
         self._choice.move(way)
-        self._chosen()
+        if self._choice.chosen is not None:
+            self._chosen()
 
     def action_pick(self, number: int) -> None:
         if number <= len(self._choice.options):

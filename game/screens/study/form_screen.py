@@ -343,10 +343,8 @@ class FormScreen(StudyScreen[bool]):
                     self._mark = max(0, min(question.most - 1, self._mark + way))
                     self._begin_writing()
                     self.show()
-            case ChoiceItem():
-                first = question.least if way > 0 else question.most
-                after = first if number is None else within(question, number + way)
-                await self._answer(after)
+            case ChoiceItem() if number is not None or way > 0:
+                await self._answer(within(question, (number or 0) + way))
             case _:
                 pass
 

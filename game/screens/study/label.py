@@ -204,11 +204,8 @@ class LabelScreen(StudyScreen[bool]):
         self._show_names()
 
     def _ask_to_finish(self) -> None:
-        words = self.frame.words
-        missing = len(self.labelling.rooms) - len(self.labelling.given)
-        text = words.finish_text.replace("{count}", str(missing))
-        question = self.frame.question(words.finish_title, text, yes=words.yes, no=words.no)
-        self.app.push_screen(question, self._finished)
+        unnamed = len(self.labelling.rooms) - len(self.labelling.given)
+        self.app.push_screen(self.frame.finish_question(unnamed), self._finished)
 
     def _finished(self, sure: bool | None) -> None:
         if sure:

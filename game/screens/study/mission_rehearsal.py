@@ -13,7 +13,7 @@ from game.mission_words import Panel
 from game.screens.play.missionview import MissionView
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.mission_page import Reminder
-from game.screens.study.preflight import PreflightScreen, WindowTooSmall
+from game.screens.study.preflight import WindowTooSmall
 from game.screens.widgets.glyphs import PLAIN
 from game.screens.widgets.howto import sign_rows, walking_rows
 from game.screens.widgets.instruction_bar import lines_needed, longest_guidance
@@ -104,21 +104,22 @@ def _doing(panel: Panel, frame: Frame, number: int) -> tuple[str, ...]:
 
 
 def windows(frame: Frame, texts: Texts, rules: MissionSettings) -> Iterator[Opened]:
-    """Preflight, the questions, the page over a mission, and a window that is too small."""
+    """The questions, the page over a mission, and a window that is too small."""
     words, walking = frame.words, texts.lessons.walking
-    yield Opened(
-        words.preflight.title,
-        lambda: PreflightScreen(frame),
-        (words.preflight, words.size_fine, words.press_keys),
-    )
-    for title, text, yes, no in (
-        (words.stop_title, words.stop_text, words.stop_yes, words.stop_no),
-        (words.decline_title, words.decline_text, words.yes, words.no),
-        (words.finish_title, words.finish_text.replace("{count}", "20"), words.yes, words.no),
+    yes_and_no = f"{words.yes} {words.no}"
+    unnamed = words.finish_text.replace("{count}", "20")
+    for title, ask, said in (
+        (
+            words.stop_title,
+            frame.stop_question,
+            f"{words.stop_text} {words.stop_yes} {words.stop_no}",
+        ),
+        (words.decline_title, frame.decline_question, f"{words.decline_text} {yes_and_no}"),
+        (words.finish_title, partial(frame.finish_question, 20), f"{unnamed} {yes_and_no}"),
+        (words.busy.title, frame.busy_question, f"{words.busy.body} {words.go_on} {words.no}"),
     ):
-        yield Opened(
-            title, partial(frame.question, title, text, yes=yes, no=no), (title, text, yes, no)
-        )
+        letters = f"{frame.keys.yes} {frame.keys.no} {frame.keys.enter}"
+        yield Opened(title, ask, (title, said, letters))
     reminder = followed(walking, texts.level_key.text) if rules.level_key else walking
     legend = legend_words(frame, rules)
     yield Opened(

@@ -16,6 +16,7 @@ _FONT_RULES = re.compile(r"\s*@font-face \{[^}]*\}")
 """Where a picture would fetch its font from; nothing is fetched."""
 _LENGTHS = re.compile(r'textLength="([\d.]+)"([^>]*)>([^<]*)<')
 """How wide a text is drawn: it comes counted in letters, some of which take two columns."""
+_FONT = "DejaVu Sans Mono"
 _LETTER = '<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20">{}</svg>'
 
 _HTML = """<!doctype html>
@@ -25,7 +26,8 @@ body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto }}
 img {{ width: 100% }}
 </style>
 <h1>{title}</h1>
-<p>Every page as participants see it, in the order of a session.</p>
+<p>Every page as participants see it, in the order of a session; at the end those that most of them
+never see.</p>
 {body}
 </html>
 """
@@ -66,13 +68,13 @@ def _as_wide_as_drawn(found: re.Match[str]) -> str:
 def _png(svg: str) -> bytes:
     from resvg_py import svg_to_bytes
 
-    return bytes(svg_to_bytes(svg_string=svg, monospace_family="DejaVu Sans Mono"))
+    return bytes(svg_to_bytes(svg_string=svg, monospace_family=_FONT))
 
 
 def _need_a_font() -> None:
     letter = '<text y="15" font-family="monospace">M</text>'
     if _png(_LETTER.format("")) == _png(_LETTER.format(letter)):
         raise StudyError(
-            "the pictures would have no letters: this machine has no fonts",
-            hint="Install some, such as the package fonts-dejavu",
+            f"the pictures would have no letters: the font {_FONT} is not on this machine",
+            hint="Install it; Debian has it in the package fonts-dejavu-core",
         )

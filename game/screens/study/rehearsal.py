@@ -20,6 +20,7 @@ from textual.widget import Widget
 
 from game.forms.items import HeadingItem, Item
 from game.journal.clock import VirtualClock
+from game.journal.records import Preflighted
 from game.journal.sink import MemorySink
 from game.rescuers.person import POPULATIONS
 from game.screens.study.app import StudyApp
@@ -30,6 +31,7 @@ from game.screens.study.label import LabelScreen
 from game.screens.study.memorise import MemoriseScreen
 from game.screens.study.mission_rehearsal import legend_words, mission_pages, windows
 from game.screens.study.pages import PageScreen
+from game.screens.study.preflight import PreflightScreen
 from game.screens.study.reason import ReasonScreen
 from game.screens.widgets.planmap import PlanMap
 from game.screens.widgets.program import Program
@@ -43,6 +45,7 @@ from game.study.ledger import SlotTaken
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import StudySession, open_session
 from game.study.protocol.tasks import Labelling, Memorising, Playing, Sheet
+from game.study.study_settings import ScreenSize
 from game.study.texts import Consent, Page, filled, preceded
 from game.world.building import Building
 
@@ -187,10 +190,16 @@ class _Rehearsal(SimulatedParticipant):
         self._study = session.study
         self._mission = session.study.settings.mission
 
+    async def check(self, needed: ScreenSize) -> Preflighted:
+        words = self._frame.words
+        said = words.preflight, words.size_fine, words.press_keys
+        await self._show(words.preflight.title, lambda: PreflightScreen(self._frame), *said)
+        return await super().check(needed)
+
     async def agree(self, page: Consent) -> bool:
         options = page.agree, page.decline
         await self._show(
-            "consent", lambda: ChoiceScreen(self._frame, page, options), page, *options
+            page.title, lambda: ChoiceScreen(self._frame, page, options), page, *options
         )
         return await super().agree(page)
 
@@ -283,7 +292,6 @@ class _Rehearsal(SimulatedParticipant):
             texts.no_place,
             texts.withdrawn,
             words.goodbye,
-            words.busy,
             filled(words.trouble, problem="study.toml changed after the first participant"),
             preceded(Page(title=texts.mission.title, body=""), texts.cut_off.mission),
         ):
@@ -293,8 +301,9 @@ class _Rehearsal(SimulatedParticipant):
 
 
 async def rehearse(study: Study, *, pictures: bool) -> list[Rehearsed]:
-    """Every page of the study, in the order of a session with the longest memorise time, drawn
-    where `pictures` are wanted. Nothing is written to the study's folder."""
+    """Every page of the study, in the order of a session with the longest memorise time, and then
+    those that a session without trouble does not come by; drawn where `pictures` are wanted.
+    Nothing is written to the study's folder."""
     design, seed = study.settings.design, study.settings.seed
     cells = (design.cell(seed, "pilot", slot) for slot in range(design.block))
     longest = design.memorise - 1

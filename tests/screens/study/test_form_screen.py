@@ -19,8 +19,10 @@ from game.forms.items import (
 from game.screens.study.base import Frame
 from game.screens.study.form_screen import FormScreen
 from game.screens.study.rehearsal import painted
+from game.study.languages import languages
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Sheet
+from game.study.ready import ready_forms
 from game.study.study_settings import ScreenSize
 from game.study.texts import Page, shipped_texts
 from tests.screens.study.test_in_view import Session, at
@@ -49,9 +51,9 @@ def _hearing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(FormScreen, "DEAF_S", 0.0)
 
 
-def made(session: Session, items: tuple[Item, ...] = ITEMS) -> Any:
+def made(session: Session, items: tuple[Item, ...] = ITEMS, page: Page = PAGE) -> Any:
     sheet = Sheet(cast(StudySession, session), items)
-    return lambda: FormScreen(Frame(ScreenSize(), WORDS), PAGE, sheet)
+    return lambda: FormScreen(Frame(ScreenSize(), WORDS), page, sheet)
 
 
 def answers(session: Session) -> dict[str, Any]:
@@ -169,6 +171,27 @@ async def test_beside_other_is_written_and_the_rest_can_still_be_marked() -> Non
         await pilot.press("enter")
         await pilot.pause()
         assert screen._done
+
+
+async def test_left_marks_nothing_where_nothing_is_marked() -> None:
+    session = Session()
+    items = (ChoiceItem(id="k", text="Which?", answers=("maps", "I would rather not say")),)
+    async with at(made(session, items), 120, 40) as (pilot, _):
+        await pilot.press("left")
+        assert answers(session) == {}
+        await pilot.press("right", "left")
+        await pilot.pause()
+    assert answers(session) == {"k": 1}
+
+
+@pytest.mark.parametrize("language", languages())
+async def test_demographics_are_wholly_in_view_and_need_no_age(language: str) -> None:
+    for form in ready_forms("demographics", language).forms:
+        page = Page(title=form.title, body=form.body)
+        async with at(made(Session(), form.items, page), 120, 40) as (pilot, screen):
+            await pilot.pause()
+            assert not screen.scrolls
+            assert "age" not in {it.id for it in screen.sheet.missing}
 
 
 async def test_what_was_written_goes_with_the_answer_other() -> None:

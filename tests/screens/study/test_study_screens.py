@@ -163,8 +163,11 @@ async def test_declining(tmp_path: Path) -> None:
     async with StudyApp(study, P01).run_test(size=SIZE) as pilot:
         await until(pilot, PreflightScreen)
         await pilot.press("up", "down", "left", "right", "space", "enter")
-        await until(pilot, ChoiceScreen)
+        choice = await until(pilot, ChoiceScreen)
         await pilot.press("up", "enter")
+        assert choice._choice.chosen is None
+        assert isinstance(pilot.app.screen, ChoiceScreen)
+        await pilot.press("down", "down", "enter")
         await until(pilot, Question)
         await pilot.press("n")
         await until(pilot, ChoiceScreen)
