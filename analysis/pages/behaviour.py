@@ -29,6 +29,7 @@ from analysis.sources.absent import Absent, Row, attempt
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import Floats
 from analysis.stats.intervals import Interval, auc_interval, gap_interval, mean_interval
+from analysis.stats.level import ALPHA, percent
 
 #: Rescues differ by less than this, in standard deviations of the static missions: about equal.
 EQUAL_SDS = 0.5
@@ -37,7 +38,7 @@ Verdict = Literal["holds", "open", "fails"]
 VERDICTS: dict[int, Verdict] = {1: "holds", 0: "open", -1: "fails"}
 
 
-def level_rows(missions: pd.DataFrame) -> list[Row]:
+def level_rows(missions: pd.DataFrame, alpha: float = ALPHA) -> list[Row]:
     """Shares of time at each level and switches a mission of the adaptive instructor, by group.
 
     `missions` has the columns of `analysis.pages.mission_rows`.
@@ -47,12 +48,14 @@ def level_rows(missions: pd.DataFrame) -> list[Row]:
         own = _adaptive(missions, group)
         if len(own):
             parts = dict(zip(COMPLEXITY, SHARES, strict=True)) | {"switches": "switches"}
-            found = {name: mean_interval(_values(own, column)) for name, column in parts.items()}
+            found = {
+                name: mean_interval(_values(own, column), alpha) for name, column in parts.items()
+            }
             rows.append({"knowledge": group, "missions": len(own), **_told(found)})
     return rows
 
 
-def rescue_rows(missions: pd.DataFrame) -> list[Row]:
+def rescue_rows(missions: pd.DataFrame, alpha: float = ALPHA) -> list[Row]:
     """Rescues with the adaptive instructor less those of the same people with each static level,
     and by knowledge group."""
     rows: list[Row] = []
@@ -60,19 +63,23 @@ def rescue_rows(missions: pd.DataFrame) -> list[Row]:
         for value in values:
             gaps = _gaps(missions[missions[column] == value])
             if len(gaps):
-                found = {"adaptive - static": mean_interval(gaps)}
+                found = {"adaptive - static": mean_interval(gaps, alpha)}
                 rows.append({"people": f"{column} {value}", "n": len(gaps), **_told(found)})
     return rows
 
 
-def auc_rows(missions: pd.DataFrame) -> list[Row]:
+def auc_rows(missions: pd.DataFrame, alpha: float = ALPHA) -> list[Row]:
     """How well the mean P(g*) of a mission tells two knowledge groups apart (.5: not at all)."""
     rows: list[Row] = []
     for one, other in (("HIGH", "LOW"), ("HIGH", "MED"), ("MED", "LOW")):
-        found = attempt(_auc, missions, one, other)
+        found = attempt(_auc, missions, one, other, alpha)
         told = found if isinstance(found, Absent) else str(found)
         rows.append({"groups": f"{one} above {other}", "AUC": told})
     return rows
+
+
+Measure = Callable[[pd.DataFrame, float], Interval]
+"""From missions and alpha to a number with its interval."""
 
 
 @dataclass(frozen=True)
@@ -81,43 +88,43 @@ class Conclusion:
 
     words: str
     place: str
-    measure: Callable[[pd.DataFrame], Interval]
+    measure: Measure
 
-    def verdict(self, missions: pd.DataFrame) -> Verdict | Absent:
+    def verdict(self, missions: pd.DataFrame, alpha: float = ALPHA) -> Verdict | Absent:
         """Holds or fails where the whole interval says so, else open."""
-        found = attempt(self.measure, missions)
+        found = attempt(self.measure, missions, alpha)
         if isinstance(found, Absent):
             return found
         return VERDICTS[found.sign]
 
 
-def _share_gap(share: str, one: str, other: str) -> Callable[[pd.DataFrame], Interval]:
-    def gap(missions: pd.DataFrame) -> Interval:
+def _share_gap(share: str, one: str, other: str) -> Measure:
+    def gap(missions: pd.DataFrame, alpha: float) -> Interval:
         ones, others = (_values(_adaptive(missions, group), share) for group in (one, other))
-        return gap_interval(ones, others)
+        return gap_interval(ones, others, alpha)
 
     return gap
 
 
-def _mostly(share: str, group: str) -> Callable[[pd.DataFrame], Interval]:
-    def excess(missions: pd.DataFrame) -> Interval:
+def _mostly(share: str, group: str) -> Measure:
+    def excess(missions: pd.DataFrame, alpha: float) -> Interval:
         own = _adaptive(missions, group)
         rest = own[[name for name in SHARES if name != share]].max(axis=1)
-        return mean_interval(_values(own.assign(lead=own[share] - rest), "lead"))
+        return mean_interval(_values(own.assign(lead=own[share] - rest), "lead"), alpha)
 
     return excess
 
 
-def _knowledge_saves(missions: pd.DataFrame) -> Interval:
+def _knowledge_saves(missions: pd.DataFrame, alpha: float) -> Interval:
     mean = missions.groupby(["participant", "knowledge"], as_index=False)["victims"].mean()
     ones, others = (_values(mean[mean["knowledge"] == group], "victims") for group in _ENDS)
-    return gap_interval(ones, others)
+    return gap_interval(ones, others, alpha)
 
 
-def _about_equal(missions: pd.DataFrame) -> Interval:
+def _about_equal(missions: pd.DataFrame, alpha: float) -> Interval:
     """What is left of the margin on the nearer side."""
     unit = float(missions.loc[missions["adaptivity"] == "static", "victims"].std())
-    gap = mean_interval(_gaps(missions))
+    gap = mean_interval(_gaps(missions), alpha)
     margin = EQUAL_SDS * unit
     return Interval(
         margin - abs(gap.estimate),
@@ -126,8 +133,8 @@ def _about_equal(missions: pd.DataFrame) -> Interval:
     )
 
 
-def _tells_apart(missions: pd.DataFrame) -> Interval:
-    return _auc(missions, *_ENDS).minus(0.5)
+def _tells_apart(missions: pd.DataFrame, alpha: float) -> Interval:
+    return _auc(missions, *_ENDS, alpha).minus(0.5)
 
 
 _ENDS = ("HIGH", "LOW")
@@ -145,11 +152,11 @@ CONCLUSIONS = (
 )
 
 
-def conclusion_table(missions: pd.DataFrame, by: list[str]) -> pd.DataFrame:
+def conclusion_table(missions: pd.DataFrame, by: list[str], alpha: float = ALPHA) -> pd.DataFrame:
     """The verdict on each published statement (a row each) in each group of studies (a column)."""
     columns: dict[str, list[str]] = {}
     for names, part in _studies(missions, by):
-        found = [conclusion.verdict(part) for conclusion in CONCLUSIONS]
+        found = [conclusion.verdict(part, alpha) for conclusion in CONCLUSIONS]
         columns[", ".join(names)] = [
             "open" if isinstance(verdict, Absent) else verdict for verdict in found
         ]
@@ -157,7 +164,9 @@ def conclusion_table(missions: pd.DataFrame, by: list[str]) -> pd.DataFrame:
     return pd.DataFrame(columns, index=index)
 
 
-def shares_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool) -> Captioned:
+def shares_figure(
+    missions: pd.DataFrame, by: list[str], *, simulated: bool, alpha: float = ALPHA
+) -> Captioned:
     """Shares of time at each level by group, a panel for each group of studies."""
     parts = _studies(missions, by)
     across = min(4, len(parts))
@@ -172,7 +181,7 @@ def shares_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool) -> 
             for at, group in enumerate(KNOWLEDGE):
                 own = _adaptive(part, group)
                 for level, share in zip(COMPLEXITY, SHARES, strict=True):
-                    found = attempt(mean_interval, _values(own, share))
+                    found = attempt(mean_interval, _values(own, share), alpha)
                     if not isinstance(found, Absent):
                         _point(axes, at + 0.18 * (COMPLEXITY.index(level) - 1), found, level)
             axes.set_xticks(range(len(KNOWLEDGE)), KNOWLEDGE)
@@ -185,13 +194,14 @@ def shares_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool) -> 
         return captioned(
             "behaviour_shares",
             figure,
-            "Share of the adaptive missions at each level, mean and 95% interval: as in Fig. 10, "
-            "C1 would lead for LOW, C2 for MED and HIGH, and C3 would rise from MED to HIGH.",
+            f"Share of the adaptive missions at each level, mean and {percent(1 - alpha)} "
+            "interval: as in Fig. 10, C1 would lead for LOW, C2 for MED and HIGH, and C3 would "
+            "rise from MED to HIGH.",
             simulated=simulated,
         )
 
 
-def verdict_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
+def verdict_figure(table: pd.DataFrame, *, simulated: bool, alpha: float = ALPHA) -> Captioned:
     """Which conclusions survive; `table` is that of `conclusion_table`."""
     signs = {"holds": ("+", 2), "open": ("?", 1), "fails": ("\N{MINUS SIGN}", 0)}
     with quiet_style():
@@ -218,13 +228,15 @@ def verdict_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
             "behaviour_conclusions",
             figure,
             "Published statements against simulated people: blue + holds, red \N{MINUS SIGN} fails "
-            "(the whole 95% interval says so), grey ? is open; rows of one colour "
-            "hang on neither preset nor kind of people.",
+            f"(the whole {percent(1 - alpha)} interval says so), grey ? is open; rows of one "
+            "colour hang on neither preset nor kind of people.",
             simulated=simulated,
         )
 
 
-def separation_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool) -> Captioned:
+def separation_figure(
+    missions: pd.DataFrame, by: list[str], *, simulated: bool, alpha: float = ALPHA
+) -> Captioned:
     """AUC of the mean P(g*), HIGH above LOW, for each group of studies."""
     parts = _studies(missions, by)
     with quiet_style():
@@ -234,7 +246,7 @@ def separation_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool)
         axes.grid(visible=False, axis="y")
         axes.axvline(0.5, color=INK, linewidth=0.8, linestyle=":")
         for at, (_, part) in enumerate(parts):
-            found = attempt(_auc, part, *_ENDS)
+            found = attempt(_auc, part, *_ENDS, alpha)
             if isinstance(found, Absent):
                 axes.text(0.5, at, found.reason, va="center", fontsize=7)
                 continue
@@ -248,7 +260,7 @@ def separation_figure(missions: pd.DataFrame, by: list[str], *, simulated: bool)
             "behaviour_auc",
             figure,
             "How well the coach's posterior knows what people know: .5 (dotted) is not at all, 1 "
-            "always; 95% intervals.",
+            f"always; {percent(1 - alpha)} intervals.",
             simulated=simulated,
         )
 
@@ -273,9 +285,11 @@ def _gaps(missions: pd.DataFrame) -> Floats:
     return (wide["adaptive"] - wide["static"]).to_numpy(dtype=float)
 
 
-def _auc(missions: pd.DataFrame, one: str, other: str) -> Interval:
-    means = [_values(_adaptive(missions, group), "mean_comprehension") for group in (one, other)]
-    return auc_interval(*means)
+def _auc(missions: pd.DataFrame, one: str, other: str, alpha: float) -> Interval:
+    ones, others = (
+        _values(_adaptive(missions, group), "mean_comprehension") for group in (one, other)
+    )
+    return auc_interval(ones, others, alpha)
 
 
 def _told(found: Mapping[str, Interval]) -> Row:

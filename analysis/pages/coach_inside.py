@@ -26,6 +26,7 @@ from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.sources.frames import StudyData
 from analysis.sources.recorded import Recorded
 from analysis.stats.intervals import clustered_share
+from analysis.stats.level import ALPHA, percent
 
 BINS = np.linspace(0, 1, 11)
 LOWER_VALUES = tuple(np.round(np.arange(0.05, 0.75, 0.05), 2))
@@ -86,7 +87,7 @@ def _next(table: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def calibration_rows(table: pd.DataFrame, outcome: str) -> list[Row]:
+def calibration_rows(table: pd.DataFrame, outcome: str, alpha: float = ALPHA) -> list[Row]:
     """By tenths of P(g*): how many evaluations, their mean, and the share with the `outcome`
     (`came_true` or `no_misstep`), with an interval that draws whole people. `table` is that of
     `evaluations`."""
@@ -98,7 +99,7 @@ def calibration_rows(table: pd.DataFrame, outcome: str) -> list[Row]:
     for at in range(len(BINS) - 1):
         inside = tenth == at
         if inside.any():
-            interval = clustered_share(numbers[inside], len(names), truth[inside])
+            interval = clustered_share(numbers[inside], len(names), truth[inside], alpha)
             rows.append(
                 {
                     "from": float(BINS[at]),
@@ -171,13 +172,13 @@ def posterior_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
         )
 
 
-def calibration_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
+def calibration_figure(table: pd.DataFrame, *, simulated: bool, alpha: float = ALPHA) -> Captioned:
     """P(g*) against what came of it; `table` is that of `evaluations`."""
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 3.9))
         panels = np.ravel(figure.subplots(1, 2, sharex=True, sharey=True))
         for axes, (outcome, title) in zip(panels, FOLLOWED.items(), strict=True):
-            rows = pd.DataFrame(calibration_rows(table, outcome))
+            rows = pd.DataFrame(calibration_rows(table, outcome, alpha))
             axes.set_title(title)
             axes.plot([0, 1], [0, 1], color=INK, linewidth=0.8, linestyle=":")
             errors = np.abs(rows[["lower", "upper"]].to_numpy().T - rows["share"].to_numpy())
@@ -199,8 +200,8 @@ def calibration_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
             "coach_calibration",
             figure,
             "How right the coach was: a point on the dotted line is a probability that comes true "
-            "as often as it says, a flat row of points says nothing about what follows; intervals "
-            "draw whole people.",
+            "as often as it says, a flat row of points says nothing about what follows; "
+            f"{percent(1 - alpha)} intervals draw whole people.",
             simulated=simulated,
         )
 

@@ -1,4 +1,4 @@
-"""Bootstrap intervals: percentiles over people drawn again, seeded."""
+"""Bootstrap intervals: percentiles over people drawn again, seeded; their level is 1 - alpha."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,6 +8,7 @@ from scipy import stats
 
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import Floats, Ints
+from analysis.stats.level import ALPHA
 
 SEED = 20_240_502
 DRAWS = 2000
@@ -15,7 +16,7 @@ DRAWS = 2000
 
 @dataclass(frozen=True)
 class Interval:
-    """An estimate and its 95% interval."""
+    """An estimate and its interval."""
 
     estimate: float
     lower: float
@@ -34,14 +35,18 @@ class Interval:
         return f"{self.estimate:.2f} [{self.lower:.2f}, {self.upper:.2f}]"
 
 
-def mean_interval(values: Floats) -> Interval:
+def mean_interval(values: Floats, alpha: float = ALPHA) -> Interval:
     """The mean. Raises Refusal for no values."""
-    return _interval(_mean, values)
+    return _interval(_mean, values, alpha=alpha)
 
 
-def gap_interval(ones: Floats, others: Floats) -> Interval:
+def gap_interval(ones: Floats, others: Floats, alpha: float = ALPHA) -> Interval:
     """Mean of `ones` less mean of `others`, two groups. Raises Refusal for an empty one."""
-    return _interval(lambda a, b, axis=-1: _mean(a, axis) - _mean(b, axis), ones, others)
+
+    def gap(a: Floats, b: Floats, axis: int = -1) -> Floats:
+        return _mean(a, axis) - _mean(b, axis)
+
+    return _interval(gap, ones, others, alpha=alpha)
 
 
 def auc(ones: Floats, others: Floats) -> float:
@@ -49,19 +54,19 @@ def auc(ones: Floats, others: Floats) -> float:
     return float(_auc(ones, others))
 
 
-def auc_interval(ones: Floats, others: Floats) -> Interval:
+def auc_interval(ones: Floats, others: Floats, alpha: float = ALPHA) -> Interval:
     """The same with its interval. Raises Refusal for an empty group."""
-    return _interval(_auc, ones, others)
+    return _interval(_auc, ones, others, alpha=alpha)
 
 
-def clustered_share(people: Ints, count: int, truth: Floats) -> Interval:
+def clustered_share(people: Ints, count: int, truth: Floats, alpha: float = ALPHA) -> Interval:
     """The mean of `truth` over rows that belong to people; the interval draws whole people.
 
     `people` numbers each row's person from 0 to `count` - 1. Raises Refusal for nobody.
     """
     rows = np.bincount(people, minlength=count).astype(float)
     sums = np.bincount(people, truth, minlength=count).astype(float)
-    return _interval(_share, sums, rows, paired=True)
+    return _interval(_share, sums, rows, paired=True, alpha=alpha)
 
 
 def _mean(values: Floats, axis: int = -1) -> Floats:
@@ -80,7 +85,9 @@ def _auc(ones: Floats, others: Floats, axis: int = -1) -> Floats:
     return np.asarray((rank_sum - n * (n + 1) / 2) / (n * m))
 
 
-def _interval(statistic: Callable[..., Floats], *samples: Floats, paired: bool = False) -> Interval:
+def _interval(
+    statistic: Callable[..., Floats], *samples: Floats, paired: bool = False, alpha: float
+) -> Interval:
     if any(len(sample) == 0 for sample in samples):
         raise Refusal("nobody is in one of the groups")
     drawn = stats.bootstrap(
@@ -92,5 +99,5 @@ def _interval(statistic: Callable[..., Floats], *samples: Floats, paired: bool =
         rng=np.random.default_rng([SEED, *map(len, samples)]),
         vectorized=True,
     ).bootstrap_distribution
-    lower, upper = np.nanpercentile(drawn, (2.5, 97.5))
+    lower, upper = np.nanpercentile(drawn, (50 * alpha, 100 - 50 * alpha))
     return Interval(float(statistic(*samples)), float(lower), float(upper))

@@ -8,6 +8,7 @@ from analysis.pages.manuscript.part import Found, Part, drawing
 from analysis.pages.mission_rows import missions
 from analysis.pages.traces import all_traces, fig10_traces
 from analysis.sources.absent import Absent, attempt
+from analysis.stats.level import percent
 
 
 def levels(found: Found) -> Part:
@@ -20,7 +21,7 @@ def levels(found: Found) -> Part:
         drawing(fig10_traces, recorded, found.study),
         drawing(all_traces, recorded, found.study),
     ]
-    shares = attempt(lambda: level_rows(missions(recorded, found.study)))
+    shares = attempt(lambda: level_rows(missions(recorded, found.study), found.alpha))
     if isinstance(shares, Absent):
         return Part(title, [f"There is no table of levels: {shares.reason}."], [], drawings)
     frame = pd.DataFrame(shares)
@@ -29,7 +30,7 @@ def levels(found: Found) -> Part:
         "Share of the adaptive missions at each level, and switches a mission",
         tuple(str(column) for column in frame.columns),
         tuple(tuple(str(cell) for cell in row) for row in frame.itertuples(index=False)),
-        "Means with 95% bootstrap intervals over people. The paper: LOW mostly at C1; MED and HIGH "
-        "mostly at C2, HIGH with more C3 and less C1 than MED.",
+        f"Means with {percent(1 - found.alpha)} bootstrap intervals over people. The paper: LOW "
+        "mostly at C1; MED and HIGH mostly at C2, HIGH with more C3 and less C1 than MED.",
     )
     return Part(title, [], [table], drawings)

@@ -1,12 +1,21 @@
 """Bootstrap intervals and the conclusions drawn from them."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import stats
 
-from analysis.pages.behaviour import CONCLUSIONS, conclusion_table
+from analysis.pages.behaviour import (
+    CONCLUSIONS,
+    auc_rows,
+    conclusion_table,
+    level_rows,
+    rescue_rows,
+)
 from analysis.sources.absent import Refusal
 from analysis.stats.intervals import auc, auc_interval, clustered_share, gap_interval, mean_interval
 
@@ -36,6 +45,34 @@ def test_an_interval_narrows_with_people_and_is_always_the_same() -> None:
     assert narrow.sign == 1
     assert narrow.lower == pytest.approx(many.mean() - 1.96 * many.std() / 500**0.5, abs=0.02)
     assert wide == mean_interval(few)
+
+
+@pytest.mark.parametrize("alpha", [0.01, 0.05, 0.2])
+def test_an_interval_has_the_level_that_is_asked_for(alpha: float) -> None:
+    many = np.random.default_rng(2).normal(2, 1, 500)
+    half = stats.norm.isf(alpha / 2) * many.std() / 500**0.5
+    found = mean_interval(many, alpha)
+    assert [found.lower, found.upper] == pytest.approx(
+        [many.mean() - half, many.mean() + half], abs=0.02
+    )
+
+
+def test_a_stricter_level_widens_every_interval_of_a_table() -> None:
+    missions = published()
+    missions = missions.assign(switches=missions["share_c2"] * 10)
+    for rows in (level_rows, rescue_rows, auc_rows):
+        widths = [
+            [
+                float(high) - float(low)
+                for low, high in re.findall(r"\[([-\d.]+), ([-\d.]+)\]", str(table))
+            ]
+            for table in (rows(missions), rows(missions, 0.001))
+        ]
+        assert widths[0] and all(np.array(widths[1]) >= np.array(widths[0]))
+        assert sum(widths[1]) > sum(widths[0])
+    verdicts = [conclusion_table(missions.assign(all=""), ["all"], alpha) for alpha in (0.5, 1e-3)]
+    opened = [(table == "open").to_numpy().sum() for table in verdicts]
+    assert opened[0] <= opened[1]
 
 
 def test_whole_people_are_drawn() -> None:
