@@ -16,6 +16,7 @@ emm_options(msg.interaction = FALSE, msg.nesting = FALSE)
 afex_options(method_mixed = "S")
 
 DATASETS <- c("unbalanced", "partial", "ties", "small")
+PUBLISHED <- "obrien_kaiser"
 OUTCOMES <- c("victims", "engagement", "confidence", "frustration", "confusion", "preference")
 STATES <- c("engagement", "confidence", "frustration", "confusion")
 ITEMS <- paste0("pref", 1:4)
@@ -302,6 +303,28 @@ reference_of <- function(name) {
        latent = if (name %in% c("unbalanced", "partial")) latent_of(data) else NULL)
 }
 
+# --- a published study of the same design: between x between x within ------------------------------
+
+# O'Brien and Kaiser (1985): treatment x gender between people, and the phase of the measurement within
+# them; here two of the three phases, their hours averaged, under the names of our factors.
+published_of <- function(earlier, later) {
+  hours <- read.csv("obrien_kaiser.csv", colClasses = c(id = "character"))
+  data <- aggregate(value ~ id + treatment + gender + phase, hours[hours$phase %in% c(earlier, later), ], mean)
+  names(data)[1] <- "participant"
+  data$knowledge <- factor(data$treatment, levels = c("control", "A", "B"), labels = group_names)
+  data$complexity <- factor(data$gender, levels = c("F", "M"), labels = c("C1", "C2"))
+  data$adaptivity <- factor(data$phase, levels = c(earlier, later), labels = c("static", "adaptive"))
+  data$participant <- factor(data$participant)
+  data <- data[order(data$participant, data$adaptivity), ]
+  wide <- wide_of(data, "value")
+  diff_fit <- lm(a - s ~ knowledge * complexity, wide)
+  gains <- adjusted(emmeans(diff_fit, ~ knowledge * complexity), "complexity", function(rows) sigma(diff_fit))
+  list(anova = anova_of(wide)$rows, lmm = lmm_of(data, "value"),
+       posthoc_diff_knowledge_within_complexity = records(plain(gains)))
+}
+
+published <- function() list(post = published_of("pre", "post"), fup = published_of("pre", "fup"))
+
 # --- compare or write -----------------------------------------------------------------------------
 
 moved <- function(old, new, path) {
@@ -323,9 +346,10 @@ moved <- function(old, new, path) {
 
 write <- identical(Sys.getenv("WRITE"), "1")
 failures <- character(0)
-for (name in DATASETS) {
+for (name in c(DATASETS, PUBLISHED)) {
   cat(name, "...\n")
-  text <- toJSON(reference_of(name), auto_unbox = TRUE, digits = NA, null = "null", na = "null")
+  found <- if (name == PUBLISHED) published() else reference_of(name)
+  text <- toJSON(found, auto_unbox = TRUE, digits = NA, null = "null", na = "null")
   file <- paste0(name, ".json")
   if (write) writeLines(text, file)
   else failures <- c(failures, moved(fromJSON(file, simplifyVector = FALSE),
