@@ -354,6 +354,72 @@ async def test_a_big_message_closes_the_line_and_nothing_else() -> None:
         assert len(server.room) == 2
 
 
+async def test_a_message_in_many_pieces_is_no_longer_than_a_whole_one() -> None:
+    async with echoes() as server:
+        visit = await server.visit()
+        await visit.until(WINDOW)
+        reader, writer = await asyncio.open_connection("127.0.0.1", server.client.port)
+        writer.write(
+            f"GET /line?ticket=P02&tab=abcdefgh HTTP/1.1\r\nHost: {server.origin[7:]}\r\n"
+            f"Origin: {server.origin}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
+            .encode()
+        )  # fmt: skip
+        assert b" 101 " in await reader.readuntil(b"\r\n\r\n")
+        piece = b"\x7e" + (1000).to_bytes(2, "big")
+        for number in range(10):
+            opcode = 1 if number == 0 else 0
+            writer.write(bytes([opcode, piece[0] | 0x80]) + piece[1:] + bytes(4) + b"x" * 1000)
+        with suppress(ConnectionError):
+            await writer.drain()
+        async with asyncio.timeout(10):
+            while b"\x03\xf1" not in await reader.read(65536):  # 1009: too big
+                assert not reader.at_eof()
+        writer.close()
+        await visit.press("well")
+        await visit.until(b"well")
+
+
+async def test_requests_that_never_end_hold_up_nobody() -> None:
+    async with echoes() as server:
+        halves = [
+            await asyncio.open_connection("127.0.0.1", server.client.port) for _ in range(100)
+        ]
+        for _, writer in halves:
+            writer.write(b"GET /?link=P01 HTTP/1.1\r\nHost: ")
+        visit = await server.visit()
+        await visit.press("well")
+        await visit.until(b"well", 2)
+        assert len(server.room) == 1
+        for _, writer in halves:
+            writer.close()
+
+
+async def test_a_flood_of_windows_of_one_visitor_is_one_program() -> None:
+    async with echoes() as server:
+        visits = await asyncio.gather(*(server.visit(tab=f"window{n:02}") for n in range(30)))
+        closings = [asyncio.create_task(visit.closed()) for visit in visits]
+        async with asyncio.timeout(10):
+            while sum(closing.done() for closing in closings) < len(visits) - 1:
+                await asyncio.sleep(0.01)
+        codes = {closing.result() for closing in closings if closing.done()}
+        assert codes == {Goodbye.ELSEWHERE}
+        assert len(server.room) == 1
+        for closing in closings:
+            closing.cancel()
+
+
+async def test_a_header_without_end_is_refused() -> None:
+    async with echoes() as server:
+        reader, writer = await asyncio.open_connection("127.0.0.1", server.client.port)
+        writer.write(b"GET / HTTP/1.1\r\nX: " + b"x" * 100_000)
+        with suppress(ConnectionError):
+            await writer.drain()
+            assert b" 400 " in await asyncio.wait_for(reader.readline(), 5)
+        writer.close()
+        assert (await server.client.get("/?link=P01")).status == 200
+
+
 async def test_binary_messages_close_the_line() -> None:
     async with echoes() as server:
         visit = await server.visit()
