@@ -87,20 +87,21 @@ def frames(chunks: list[Chunk]) -> list[tuple[Image.Image, int]]:
             due += step_ms / 1000
             if screen.dirty or not drawn:
                 screen.dirty.clear()
-                drawn.append((_picture(screen), step_ms))
+                drawn.append((picture(screen), step_ms))
             else:
                 drawn[-1] = drawn[-1][0], drawn[-1][1] + step_ms
         Shown.feed(stream, chunk.data)
-    return [*drawn, (_picture(screen), round(1000 * LAST_FRAME_S))]
+    return [*drawn, (picture(screen), round(1000 * LAST_FRAME_S))]
 
 
-def _picture(screen: Any) -> Image.Image:
+def picture(screen: Any) -> Image.Image:
+    """An emulated screen, drawn cell by cell."""
     wide, high = CELL
     font = ImageFont.truetype(FONT, high - 4)
-    image = Image.new("RGB", (COLUMNS * wide, ROWS * high), "#121316")
+    image = Image.new("RGB", (screen.columns * wide, screen.lines * high), "#121316")
     draw = ImageDraw.Draw(image)
-    for row in range(ROWS):
-        for column in range(COLUMNS):
+    for row in range(screen.lines):
+        for column in range(screen.columns):
             cell = screen.buffer[row][column]
             ink, paper = _colour(cell.fg, "eaebee"), _colour(cell.bg, "121316")
             if cell.reverse:

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyte
+from PIL import Image
 
 KEYS = {
     "up": "\x1b[A",
@@ -83,6 +84,13 @@ class Shown(ABC):
         if new or self._shown is None:
             self._shown = "\n".join(line.rstrip() for line in self._screen.display)
         return self._shown
+
+    def image(self) -> Image.Image:
+        """The screen as it looks now."""
+        from tests.recording import picture
+
+        self.text()
+        return picture(self._screen)
 
     def forget(self) -> None:
         """Begin with an empty screen, as if nothing had come yet."""

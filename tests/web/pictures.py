@@ -4,65 +4,16 @@ from __future__ import annotations
 
 import sys
 import tempfile
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from PIL import Image
 
-from game.forms.reading import paper_forms
 from game.study.folder import Identity, Study, new_study, open_study
-from game.study.texts import Texts
 from tests.study.participant import TerminalParticipant
 from tests.study.people import cut_off
+from tests.study.pictures import COLOURS, PHASES, SETTLE_S
 from tests.web.chromium import Chromium, Tab, Wire
 from tests.web.served import Served
-
-COLOURS = 48
-SETTLE_S = 1.5
-"""A page takes no keys for a moment, and shows that."""
-
-
-@dataclass(frozen=True)
-class Phase:
-    """A phase, and where to cut a participant off to have them come back to the page with that
-    title: when they do `at` for so many times after they did `since`. `go` is what they then do
-    before the picture."""
-
-    name: str
-    title: Callable[[Texts], str]
-    at: str
-    since: str = ""
-    times: int = 1
-    go: Callable[[TerminalParticipant], None] = lambda _: None
-
-
-def _enter(shows: str) -> Callable[[TerminalParticipant], None]:
-    def go(person: TerminalParticipant) -> None:
-        person.terminal.press("enter")
-        person.terminal.wait_for(shows)
-
-    return go
-
-
-def _play(person: TerminalParticipant) -> None:
-    person.begin_mission()
-    person.walk(lambda now: now.actions >= 25)
-
-
-TITLES = {form.id: form.title for form in paper_forms().forms}
-PHASES = (
-    Phase("preflight", lambda its: its.words.preflight.title, "check"),
-    Phase("memorise", lambda its: its.memorise.title, "memorise", go=_enter(" left")),
-    Phase("label", lambda its: its.label.title, "label", go=_enter(" left")),
-    Phase("mission-page", lambda its: its.mission.title, "read", since="label"),
-    Phase("mission", lambda its: its.mission.title, "read", since="label", go=_play),
-    Phase("sliders", lambda _: TITLES["sliders"], "answer", since="label"),
-    Phase("likert", lambda _: TITLES["likert"], "answer", since="label", times=5),
-    Phase("preference", lambda its: its.preference.title, "prefer"),
-    Phase("reason", lambda its: its.reason.title, "explain"),
-    Phase("debrief", lambda its: its.debrief.title, "read", since="explain"),
-)
 
 
 def take_pictures(folder: Path) -> None:
