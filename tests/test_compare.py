@@ -84,6 +84,20 @@ def test_a_coach_that_there_is_not_is_named(name: str) -> None:
         contender(name)
 
 
+@pytest.mark.parametrize(
+    ("name", "named", "hint"),
+    [
+        ("knowledge:first_level=1", "there is no number 'first_level'", ""),
+        ("knowledge:serch_ms=1", "there is no number 'serch_ms'", "Did you mean search_ms?"),
+        ("knowledge:show_ms=1,search_ms=2", "show_ms cannot be '1,search_ms=2'", "semicolon"),
+    ],
+)
+def test_a_number_that_cannot_be_changed_is_named(name: str, named: str, hint: str) -> None:
+    with pytest.raises(AnaError, match=named) as caught:
+        contender(name)
+    assert hint in (caught.value.hint or "") and "first_level?" not in (caught.value.hint or "")
+
+
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out, drawn = tmp_path / "out.json", tmp_path / "figures"
     asked = ["compare", "--coaches", "static:1,static:3,ana,knowledge", "--buildings", "practice"]

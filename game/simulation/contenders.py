@@ -88,12 +88,15 @@ def _changed(name: str, before: _Numbers, changes: str) -> _Numbers:
     for change in changes.split(";"):
         number, _, value = change.partition("=")
         if not isinstance(numbers.get(number), float):
-            hint = did_you_mean(number, numbers)
+            hint = did_you_mean(
+                number, [it for it, now in numbers.items() if isinstance(now, float)]
+            )
             raise AnaError(f"there is no number '{number}' to change", place=name, hint=hint)
         try:
             numbers[number] = float(value)
         except ValueError as error:
-            raise AnaError(f"{number} must be a number, not '{value}'", place=name) from error
+            hint = "Write a number, and a semicolon between two changes."
+            raise AnaError(f"{number} cannot be '{value}'", place=name, hint=hint) from error
     try:
         return type(before)(**numbers)
     except ValueError as error:
