@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise, product
-from math import exp, log, prod
+from math import exp, log
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -19,7 +20,7 @@ from game.coach.kinds.knowledge import KnowledgeCoach
 from game.coach.kinds.static import NoInfluence
 from game.coach.knowledge.assumed import ASSUMED
 from game.coach.knowledge.learner import KnowledgeLearner
-from game.coach.knowledge.rooms import RoomKnowledge, RoomWalk, StepChances
+from game.coach.knowledge.rooms import RoomKnowledge, RoomWalk, StepChances, WalkPace
 from game.coach.knowledge.times import Estimate, Habits, LegTimes
 from game.coach.model import HumanModel, Reward
 from game.coach.spec import CoachSpec, parse_coach
@@ -88,7 +89,16 @@ def test_the_filter_is_the_sum_over_all_that_a_searcher_may_have_had_in_mind(
             moved_on = (1 - change) * (before == mind) + change * guesses(start)[mind]
             chance *= moved_on * CHANCES.likelihood(mind, start, end)
         unknown += chance
-    known = prod(CHANCES.likelihood("Cellar", start, end) for start, end in steps)
+    begins, ends = ASSUMED.astray
+    known = 0.0
+    for astray in product((False, True), repeat=len(steps)):
+        chance, was = 1.0, False
+        for (start, end), now in zip(steps, astray, strict=True):
+            goes_astray = 1 - ends if was else begins
+            chance *= goes_astray if now else 1 - goes_astray
+            chance *= 0.5 if now else CHANCES.likelihood("Cellar", start, end)
+            was = now
+        known += chance
     walk = RoomWalk(ASSUMED, CHANCES, "Cellar", path[0], frozenset())
     for cell in path[1:]:
         walk.moved(cell, frozenset())
@@ -146,11 +156,42 @@ def test_a_step_is_judged_by_the_policy_of_the_human_model() -> None:
     assert tried > 50
 
 
-def test_in_a_corridor_a_step_leads_the_right_way_with_92_percent() -> None:
+def test_in_a_corridor_a_step_leads_the_right_way_with_98_percent() -> None:
     places = {room.name: room.label for room in GALLERY.rooms}
     chances = StepChances(GALLERY.terrain.floodfills, places, ASSUMED.rationality)
-    assert chances.likelihood("Annex", (8, 1), (7, 1)) == pytest.approx(0.92, abs=0.005)
-    assert chances.likelihood("Annex", (8, 1), (9, 1)) == pytest.approx(0.08, abs=0.005)
+    assert chances.likelihood("Annex", (8, 1), (7, 1)) == pytest.approx(0.98, abs=0.005)
+    assert chances.likelihood("Annex", (8, 1), (9, 1)) == pytest.approx(0.02, abs=0.005)
+
+
+def paced(ratios: Sequence[float]) -> float:
+    """The evidence of the pace of a walk whose steps took so many times as long as usual."""
+    pace = WalkPace(ASSUMED)
+    for ratio in ratios:
+        pace.stepped(ratio)
+    return pace.evidence
+
+
+@given(st.integers(1, 200))
+def test_the_steps_of_a_walk_at_the_usual_pace_say_less_and_less(steps: int) -> None:
+    """However long a walk is, its pace alone proves nothing: some people search at full speed."""
+    once_more = paced([1.0] * (steps + 1)) - paced([1.0] * steps)
+    assert 0 < once_more < paced([1.0]) * 2 / steps
+    assert paced([1.0] * steps) < 2
+
+
+@given(st.lists(st.floats(0.3, 5), min_size=1, max_size=20), st.randoms())
+def test_the_order_of_the_steps_says_nothing(ratios: list[float], random: Random) -> None:
+    shuffled = random.sample(ratios, len(ratios))
+    assert paced(shuffled) == pytest.approx(paced(ratios))
+
+
+@given(st.lists(st.floats(1, 1.8), min_size=1, max_size=20))
+def test_slower_steps_speak_against_knowing_the_way(ratios: list[float]) -> None:
+    assert paced([1.2 * ratio for ratio in ratios]) < paced(ratios)
+
+
+def test_nothing_was_said_before_the_first_step() -> None:
+    assert paced([]) == 0
 
 
 # --- the hierarchy over rooms -------------------------------------------------------------------
@@ -260,6 +301,23 @@ def test_an_estimate_is_the_mean_weighted_by_precision() -> None:
     assert first.after(20.0, 2.0).mean == pytest.approx(15.0)
     assert first.after(20.0, 2.0, weight=0.0) == first
     assert first.after(20.0, 1.0).precision == pytest.approx(0.25 + 1)
+
+
+@given(st.lists(st.tuples(st.floats(0, 15_000), st.booleans()), max_size=20))
+def test_a_search_is_expected_to_take_all_the_time_of_searching_over_all_finds(
+    searches: list[tuple[float, bool]],
+) -> None:
+    habits = Habits(ASSUMED)
+    for ms, found in searches:
+        before = habits.search_ms
+        habits.searched(ms, 1.0, found=found)
+        if not found:
+            assert habits.search_ms >= before
+        elif ms <= before:
+            assert habits.search_ms <= before
+    spent_ms = ASSUMED.search_ms * ASSUMED.search_finds + sum(ms for ms, _ in searches)
+    finds = ASSUMED.search_finds + sum(found for _, found in searches)
+    assert habits.search_ms == pytest.approx(spent_ms / finds)
 
 
 def test_slow_reading_makes_c1_slower_than_c3() -> None:

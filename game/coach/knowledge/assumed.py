@@ -26,24 +26,30 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     preparedness" (paper 5.3), a little less at the ends."""
     share_points: int = 20
     """The share is held on a grid of so many points; more changed no decision."""
-    rationality: float = 1.2
+    rationality: float = 2.0
     """Beta of the policy (R^HR's `per_cell`): in a corridor a step leads nearer to where the walker
-    is heading with probability .92, since people turn back or press a wrong key now and then
-    (chosen; with 1.6, or .96, people who erred were taken for people who did not know the way)."""
-    retarget: float = 0.06
-    """Chance, at each step, that a searcher thinks of another place (judgement)."""
+    is heading with probability .98 (chosen)."""
+    astray: tuple[float, float] = (0.02, 0.3)
+    """Chance, at each step, that somebody who knows the way goes astray, by a wrong key or in
+    thought, and that they find back (chosen): one slip of several steps is one error, not several.
+    """
+    retarget: float = 0.04
+    """Chance, at each step, that a searcher thinks of another place (chosen)."""
     reach_cells: float = 12.0
     """How far off searchers look: a place twice as far is e times less likely (judgement)."""
     walk_limit: float = 12.0
     """No walk says more than this about a room, in log odds: the model of walks is too simple."""
     retention: float = 0.75
     """Chance that a name that came into view is remembered with its place (judgement)."""
-    searching_pace: float = 1.35
-    """How many times longer a step takes somebody who looks for the way (chosen)."""
-    pace_sd: float = 0.25
-    """Standard deviation of the logarithm of a step's time about that (chosen)."""
-    pace_limit: float = 0.4
-    """No single step's time says more than this, in log odds: people pause for other reasons."""
+    pace_mean: tuple[float, float] = (0.0, 0.3)
+    pace_sd: tuple[float, float] = (0.1, 0.25)
+    """Mean and standard deviation, between walks, of the pace of somebody who knows the way and of
+    somebody who looks for it: the logarithm of how many times as long as usual a step takes. Who
+    searches needs a third longer (judgement)."""
+    pace_noise: float = 0.25
+    """Standard deviation of a single step about the pace of its walk (judgement)."""
+    pace_limit: float = 0.8
+    """No single step is taken to be slower or faster than this: people pause for other reasons."""
     lost_evidence: float = 2.0
     """Log odds against knowing the way when a rescuer has stood, paced or circled for so long that
     the coach notices (judgement)."""
@@ -96,12 +102,12 @@ class Assumed(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     factor_noise: float = 0.18
     """Logarithm of how much longer a leg at C1, C2, C3 takes than is said above: C2 takes longer
     from the start, for counting and looking; spread between people, and of one leg."""
-    search_ms: float = 7_500.0
-    search_sd: float = 3_000.0
-    search_noise: float = 3_500.0
-    """By how much finding a room that is not known takes longer than walking to one that is: mean
-    and spread between people, and the spread of one search (chosen; 5,500 was fitted to people who
-    recalled while they read)."""
+    search_ms: float = 8_500.0
+    search_finds: float = 2.0
+    """By how much finding a room that is not known takes longer than walking to one that is, and
+    how many searches that were carried to their end this expectation weighs as much as (chosen)."""
+    search_most_ms: float = 16_000.0
+    """No search counts for more: whoever takes longer did something else."""
 
     # --- choosing --------------------------------------------------------------------------------
 

@@ -119,7 +119,7 @@ class KnowledgeLearner:
             return
         if walk is not None and leg.level is Level.C3 and not leg.changed:
             spent_ms = at_ms - leg.at_ms + rest_ms - leg.known_ms
-            self.habits.searched(spent_ms + self.habits.search_ms, 1 - self._known(walk))
+            self.habits.searched(spent_ms, 1 - self._known(walk), found=False)
         leg.changed = True
 
     def lost(self, shown: OnBar) -> None:
@@ -144,7 +144,7 @@ class KnowledgeLearner:
             self.habits.took(leg.level, ms, leg.plain_ms)
         elif leg.unknown is not None:
             self.habits.took(leg.level, ms, leg.plain_ms, 1 - leg.unknown)
-            self.habits.searched(ms - leg.known_ms, leg.unknown)
+            self.habits.searched(ms - leg.known_ms, leg.unknown, found=True)
 
     # --- walks -----------------------------------------------------------------------------------
 

@@ -147,8 +147,8 @@ class RoomWalk:
     after another, as a hidden Markov filter over the places not yet seen, r among them.
 
     The hidden state is the place the searcher has in mind: at each step another one, near by rather
-    than far, with the chance `retarget`. `evidence` is e_r so far. `seen` is whether the name of
-    the room had been in view when the walk began.
+    than far, with the chance `retarget`. Whoever heads for r goes `astray` now and then. `seen` is
+    whether the name of the room had been in view when the walk began.
     """
 
     def __init__(
@@ -156,12 +156,19 @@ class RoomWalk:
     ) -> None:
         self.room = room
         self.seen = room in seen
-        self.evidence = 0.0
         self._assumed = assumed
         self._steps = steps
         self._position = start
         self._open = [name for name in steps.places if name == room or name not in seen]
         self._minds = self._guesses(start)
+        self._said = 0.0
+        self._astray = 0.0
+        self._pace = WalkPace(assumed)
+
+    @property
+    def evidence(self) -> float:
+        """e_r so far."""
+        return self._limited(self._said + self._pace.evidence)
 
     def moved(self, position: Cell, seen: frozenset[str]) -> None:
         """The walker is at `position` now, and the names `seen` have been in view: searchers who
@@ -176,7 +183,7 @@ class RoomWalk:
             for name, mind in self._minds.items()
         }
         total = sum(joint.values())
-        self.add(log(self._steps.likelihood(room, start, position)) - log(total))
+        self.add(log(self._heading(self._steps.likelihood(room, start, position))) - log(total))
         self._position = position
         self._open = [name for name in self._open if name == room or name not in seen]
         left = {name: joint[name] / total for name in self._open}
@@ -184,17 +191,26 @@ class RoomWalk:
         again = self._guesses(position)
         self._minds = {name: mind + ruled_out * again[name] for name, mind in left.items()}
 
+    def _heading(self, likelihood: float) -> float:
+        """P(a step | the walker heads for the room), of which the policy alone would make
+        `likelihood`: whoever is astray comes nearer with one step in two."""
+        begins, ends = self._assumed.astray
+        astray = self._astray * (1 - ends) + (1 - self._astray) * begins
+        total = astray / 2 + (1 - astray) * likelihood
+        self._astray = astray / 2 / total
+        return total
+
     def paced(self, ratio: float) -> None:
-        """A step took `ratio` times as long as this person's usual one: searchers are slower."""
-        assumed = self._assumed
-        slow, spread = log(assumed.searching_pace), assumed.pace_sd
-        evidence = ((log(ratio) - slow) ** 2 - log(ratio) ** 2) / (2 * spread**2)
-        self.add(max(-assumed.pace_limit, min(assumed.pace_limit, evidence)))
+        """A step took `ratio` times as long as this person's usual one."""
+        self._pace.stepped(ratio)
 
     def add(self, evidence: float) -> None:
         """Take in evidence, in log odds, that the walker knows the way."""
+        self._said = self._limited(self._said + evidence)
+
+    def _limited(self, evidence: float) -> float:
         limit = self._assumed.walk_limit
-        self.evidence = max(-limit, min(limit, self.evidence + evidence))
+        return max(-limit, min(limit, evidence))
 
     def _guesses(self, cell: Cell) -> dict[str, float]:
         """Where a searcher at `cell` thinks of looking."""
@@ -202,6 +218,39 @@ class RoomWalk:
         weights = {name: exp(-self._steps.distance(name, cell) / reach) for name in self._open}
         total = sum(weights.values())
         return {name: weight / total for name, weight in weights.items()}
+
+
+class WalkPace:
+    """What the pace of a walk says: people who search step more slowly than they usually do.
+
+    The steps of a walk are alike, so that each says less than the one before. Its pace, the
+    logarithm of how many times as long as usual a step takes, is normal with `pace_mean` and
+    `pace_sd`, for somebody who knows the way and for somebody who searches, and a step varies about
+    it by `pace_noise`; the evidence is that of the mean of all steps.
+    """
+
+    def __init__(self, assumed: Assumed) -> None:
+        self._assumed = assumed
+        self._steps = 0
+        self._total = 0.0
+
+    def stepped(self, ratio: float) -> None:
+        """A step took `ratio` times as long as this person's usual one."""
+        limit = self._assumed.pace_limit
+        self._steps += 1
+        self._total += max(-limit, min(limit, log(ratio)))
+
+    @property
+    def evidence(self) -> float:
+        """In log odds, that the walker knows the way."""
+        if not self._steps:
+            return 0.0
+        pace, noise = self._total / self._steps, self._assumed.pace_noise**2 / self._steps
+        known, unknown = (
+            -((pace - mean) ** 2) / (2 * (sd**2 + noise)) - log(sd**2 + noise) / 2
+            for mean, sd in zip(self._assumed.pace_mean, self._assumed.pace_sd, strict=True)
+        )
+        return known - unknown
 
 
 def log_odds(assumed: Assumed, answer: QuizMark) -> float:

@@ -55,7 +55,8 @@ class Habits:
         self._slowness = Estimate.around(0.0, assumed.slowness_sd)
         means = zip(Level, assumed.factor_means, strict=True)
         self._factors = {level: Estimate.around(mean, assumed.factor_sd) for level, mean in means}
-        self._search = Estimate.around(assumed.search_ms, assumed.search_sd)
+        self._finds = assumed.search_finds
+        self._searched_ms = assumed.search_finds * assumed.search_ms
 
     @property
     def step_ms(self) -> float:
@@ -69,8 +70,13 @@ class Habits:
 
     @property
     def search_ms(self) -> float:
-        """By how much finding a room that is not known takes longer than walking to one that is."""
-        return max(0.0, self._search.mean)
+        """By how much finding a room that is not known takes longer than walking to one that is.
+
+        A search has no memory: its duration is exponential, the belief about the rate a gamma. So
+        it is the time of all searches over the number of those that ended; one that was broken off
+        adds only time.
+        """
+        return self._searched_ms / self._finds
 
     def factor(self, level: Level) -> float:
         """How many times as long as expected the legs of a level take."""
@@ -92,10 +98,11 @@ class Habits:
         ratio = _clipped(log(ms / expected_ms), 1.0)
         self._factors[level] = self._factors[level].after(ratio, self._assumed.factor_noise, weight)
 
-    def searched(self, ms: float, weight: float) -> None:
-        """Finding a room took `ms` longer than walking there; `weight`: P(it was not known)."""
-        value = max(-3_000.0, min(16_000.0, ms))
-        self._search = self._search.after(value, self._assumed.search_noise, weight)
+    def searched(self, ms: float, weight: float, *, found: bool) -> None:
+        """A search took `ms` longer than walking there, and was `found` or broken off; `weight`:
+        P(the room was not known)."""
+        self._searched_ms += weight * max(0.0, min(self._assumed.search_most_ms, ms))
+        self._finds += weight * found
 
 
 class _Sentence(NamedTuple):
