@@ -3,24 +3,15 @@
 from __future__ import annotations
 
 import getpass
-import os
-import signal
 import sys
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 import msgspec
 
-from game.errors import STATUS_DEFECT, AnaError
+from game.errors import AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 from game.lazy import LazyGroup
-
-if TYPE_CHECKING:
-    from game.study.texts import Login, Texts
-
-FROM_THE_KEYBOARD = (signal.SIGINT, signal.SIGQUIT, signal.SIGTSTP)
 
 
 def _red(line: str) -> None:
@@ -44,7 +35,6 @@ _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 STATUS_TROUBLE = 2
 STATUS_WRONG = 1
-_NOTHING_WORKS = "The study cannot continue here. Please tell the experimenter."
 _UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
 
 
@@ -130,19 +120,9 @@ def make_demonstration(folder: Path, participants: int, seed: int) -> None:
 @_PILOT
 def run_participant(folder: Path, participant: str, pilot: bool) -> int:
     """Let participant ID take part at this terminal, or resume an earlier session."""
-    for number in FROM_THE_KEYBOARD:
-        signal.signal(number, signal.SIG_IGN)
-    try:
-        from game.screens.study.app import run_session
-        from game.study.folder import identify, open_study, refuse_other_accounts
+    from game.commands.ana_study_terminal import take_part_here
 
-        refuse_other_accounts(folder, f"ana study run {folder} --participant {participant}")
-        identity = identify(participant, pilot=pilot)
-        return run_session(open_study(folder), identity)
-    except AnaError:
-        raise
-    except Exception as error:
-        return _cannot_go_on(error)
+    return take_part_here(folder, participant, pilot=pilot)
 
 
 @study_group.command("check", short_help="Try everything before the first participant.")
@@ -415,61 +395,9 @@ def let_in(folder: Path, *, pilot: bool) -> int:
     The ID comes from the SSH key, or is asked for. If something goes wrong, the participant reads
     it in the study's own words; the system log has the details and how to fix it.
     """
-    if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise AnaError(
-            "this login is for taking part in a study, and needs a terminal",
-            hint="Log in without a command: ssh ACCOUNT@HOST",
-        )
-    for number in (signal.SIGQUIT, signal.SIGTSTP):
-        signal.signal(number, signal.SIG_IGN)
-    texts = None
-    try:
-        from game.study.folder import identify, open_study, refuse_other_accounts
-        from game.study.lab.sshd import who_logs_in
-        from game.study.texts import shipped_texts
+    from game.commands.ana_study_terminal import let_in_over_ssh
 
-        texts = shipped_texts()
-        refuse_other_accounts(folder, f"ana study login {folder}")
-        study = open_study(folder)
-        texts = study.texts
-        participant = who_logs_in(os.environ, partial(_ask_for_id, texts.login))
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        from game.screens.study.app import run_session
-
-        return run_session(study, identify(participant, pilot=pilot))
-    except AnaError as error:
-        from game.screens.study.fault import log_to_system, tell_plainly
-        from game.study.texts import filled, shipped_texts
-
-        log_to_system(str(error))
-        words = (texts or shipped_texts()).words
-        tell_plainly(filled(words.trouble, problem=error.message))
-        return STATUS_TROUBLE
-    except Exception as error:
-        return _cannot_go_on(error, texts)
-
-
-def _cannot_go_on(error: Exception, texts: Texts | None = None) -> int:
-    """Show the participant that something failed which nobody expected; the exit status."""
-    try:
-        from game.screens.study.fault import cannot_go_on
-        from game.study.texts import shipped_texts
-
-        return cannot_go_on(error, texts or shipped_texts())
-    except Exception:
-        click.echo(f"\n{_NOTHING_WORKS}\n", err=True)
-        return STATUS_DEFECT
-
-
-def _ask_for_id(words: Login, refused: str) -> str:
-    if refused:
-        click.echo(f"\n  {words.wrong.replace('{id}', refused)}")
-    try:
-        return input(f"\n  {words.ask} ")
-    except EOFError:
-        raise click.Abort from None
-    except UnicodeDecodeError:
-        return "?"
+    return let_in_over_ssh(folder, pilot=pilot)
 
 
 def record_analysis(folder: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from time import monotonic
 from typing import ClassVar
 
@@ -12,58 +11,22 @@ from textual.timer import Timer
 from game.forms.items import (
     AnyQuestion,
     ChoiceItem,
-    HeadingItem,
-    Item,
     NumberItem,
     ScaleItem,
     SliderItem,
     TextItem,
 )
+from game.screens.study.answering import STEP, keys_for, moved, too_long, within
 from game.screens.study.base import Frame, StudyScreen, TextColumn
-from game.screens.study.question_rows import AnswerLook, item_rows
-from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.study.question_rows import AnswerLook
+from game.screens.study.questions import Questions
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Sheet
 from game.study.texts import Page
 
-STEP = 10
 TYPED_S = 1.5
 """Digits typed within so long of each other are one number."""
 MOST_DIGITS = 9
-
-
-def moved(value: int | None, by: int, slider: SliderItem) -> int:
-    """The value after a step; the first step leads to the middle."""
-    if value is None:
-        return (slider.least + slider.most) // 2
-    return max(slider.least, min(slider.most, value + by))
-
-
-class Questions(Canvas):
-    """The items of a form, one below the other."""
-
-    COMPONENT_CLASSES: ClassVar[set[str]] = {
-        "text", "active", "quiet", "option", "chosen", "marked", "knob", "set", "faint", "field",
-        "heading",
-    }  # fmt: skip
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.spans: dict[str, range] = {}
-        """The rows of each question that is shown."""
-
-    def show(self, items: Sequence[Item], looks: dict[str, AnswerLook]) -> None:
-        """Draw the items, and each question as it looks."""
-        rows: list[Row] = []
-        self.spans = {}
-        for item in items:
-            if isinstance(item, HeadingItem):
-                rows += [*item_rows(item, AnswerLook(), self.size.width), BLANK]
-                continue
-            block = item_rows(item, looks[item.id], self.size.width)
-            self.spans[item.id] = range(len(rows), len(rows) + len(block))
-            rows += [*block, BLANK, BLANK]
-        self.draw(rows)
 
 
 class FormScreen(StudyScreen[bool]):
@@ -173,31 +136,15 @@ class FormScreen(StudyScreen[bool]):
         )
 
     def _keys(self, question: AnyQuestion) -> list[tuple[str, str]]:
-        words, names = self.frame.words, self.frame.keys
-        digits = f"1-{min(9, question.most)}"
-        match question:
-            case SliderItem():
-                leap = [] if self.scrolls else [(names.page, f"±{STEP}")]
-                keys = [("← →", words.move), ("0-9", words.number), *leap]
-            case ScaleItem():
-                keys = [("← →", words.answer), (digits, words.answer)]
-            case ChoiceItem(several=True):
-                keys = [
-                    ("← →", words.choose),
-                    (names.space, words.mark),
-                    (digits, words.mark),
-                ]
-            case ChoiceItem():
-                keys = [("← →", words.choose), (digits, words.choose)]
-            case NumberItem():
-                keys = [("0-9", words.number)]
-            case TextItem():
-                keys = [(names.letters, words.write)]
-        if self.writing and not isinstance(question, TextItem):
-            keys = [*keys[:-1], (names.letters, words.write)]
-        if not question.required and self.sheet.value(question) is not None and not self.writing:
-            keys.append((names.delete, words.clear))
-        return keys
+        """The keys that answer the question, and what they do."""
+        clears = not question.required and self.sheet.value(question) is not None
+        return keys_for(
+            question,
+            self.frame.words,
+            leaps=not self.scrolls,
+            writing=self.writing,
+            clears=clears and not self.writing,
+        )
 
     # --- keys -------------------------------------------------------------------------------------
 
@@ -266,21 +213,9 @@ class FormScreen(StudyScreen[bool]):
         if not self._in_view(self._active):
             self._bring()
             return
-        self._draft, self._refused = draft, self._too_long(draft)
+        self._draft, self._refused = draft, too_long(self.asked, draft, self.frame.words)
         self.show()
         self.call_after_refresh(self._fitted)
-
-    def _too_long(self, draft: str) -> str:
-        most = (
-            self.asked.length
-            if isinstance(self.asked, TextItem)
-            else TextItem.__struct_defaults__[-1]
-        )
-        too_many = len(draft) - int(most)
-        if isinstance(self.asked, NumberItem) or too_many <= 0:
-            return ""
-        words = self.frame.words.too_long.replace("{most}", f"{most:,}")
-        return words.replace("{count}", f"{too_many:,}")
 
     async def _digit(self, digit: int) -> None:
         question = self.asked
@@ -397,7 +332,7 @@ class FormScreen(StudyScreen[bool]):
         question, draft = self.asked, self._draft
         if draft is None:
             return True
-        if self._too_long(draft):
+        if too_long(self.asked, draft, self.frame.words):
             return False
         with self.kept():
             if isinstance(question, NumberItem):
@@ -477,8 +412,3 @@ class FormScreen(StudyScreen[bool]):
             self.show()
         else:
             self.finish(True)
-
-
-def within(question: ScaleItem | ChoiceItem, value: int) -> int:
-    """The value, or the nearest that the question allows."""
-    return max(question.least, min(question.most, value))
