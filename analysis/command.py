@@ -73,6 +73,12 @@ def command(
     from analysis.sources.source import holds_live_sessions, is_study_source
     from analysis.sources.study_folder import mode_of
 
+    if not source.exists():
+        raise AnaError(
+            "there is nothing there",
+            place=str(source),
+            hint="Give a study folder, a dataset that `ana study export` has made, or a table",
+        )
     if prereg is not None:
         if out or report or figures:
             raise click.UsageError("--prereg reads no data: give it without --json or --report.")

@@ -35,7 +35,17 @@ _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
 STATUS_TROUBLE = 2
 STATUS_WRONG = 1
-_UNBLINDED = "The study is still open: the ledger now records that it was unblinded."
+_UNBLINDED = (
+    "The study is still open, and this shows who was allocated what: the ledger now records that "
+    "it was unblinded."
+)
+_UNBLINDS = (
+    "The study is still open. An export of live sessions shows who was allocated what, so the "
+    "ledger will record that the study was unblinded."
+)
+_ELSEWHERE = (
+    "Datasets exported before, and backups, still have them: delete those, or make them again."
+)
 
 
 @click.group(name="study", cls=LazyGroup)
@@ -246,6 +256,8 @@ def withdraw_participant(folder: Path, participant: str, *, pilot: bool, yes: bo
     deleted = withdraw(study, identity)
     data = "their data are deleted" if deleted else "nothing had been recorded"
     click.echo(f"{participant} has withdrawn; {data}")
+    if deleted:
+        click.echo(_ELSEWHERE)
 
 
 @study_group.command("data", short_help="Give one participant their own data.")
@@ -299,6 +311,7 @@ def close_study(folder: Path) -> None:
               help="Leave this session out, and say so in the dataset; repeatable.")  # fmt: skip
 @click.option("--anonymous", is_flag=True,
               help="Other pseudonyms and dates, and no answers in their own words.")  # fmt: skip
+@click.option("--yes", is_flag=True, help="Do not ask before an open study is unblinded.")
 def write_dataset(
     folder: Path,
     out: Path,
@@ -306,13 +319,23 @@ def write_dataset(
     *,
     without: tuple[str, ...],
     anonymous: bool,
+    yes: bool,
 ) -> None:
-    """Write the study DIR to the folder OUT as a Psych-DS dataset with a codebook."""
-    from game.study.lab.export import export_study
+    """Write the study DIR to the folder OUT as a Psych-DS dataset with a codebook.
 
+    An earlier export in OUT is replaced. Exporting the live sessions of an open study unblinds it,
+    which the ledger records: at a terminal you are asked first.
+    """
+    from game.study.lab.export import export_study, unblinds
+
+    if not yes and sys.stdin.isatty() and unblinds(folder, modes):
+        click.echo(_UNBLINDS)
+        click.confirm("Export all the same?", abort=True)
     done = export_study(folder, out, modes, without=without, anonymous=anonymous)
     for mode, sessions in done.sessions.items():
         click.echo(f"{out}: {mode} sessions {sessions}, rounds {done.rounds[mode]}")
+    for mode in done.dropped:
+        click.echo(f"{out}: the earlier export had {mode} sessions too, and was replaced", err=True)
     if done.unblinded:
         click.echo(_UNBLINDED, err=True)
 
@@ -369,13 +392,13 @@ def serve_browsers(folder: Path, host: str, port: int, url: str | None, sessions
 @study_group.command("invite", short_help="Print links for a browser.")
 @_FOLDER
 @click.argument("participants", metavar="ID...", nargs=-1, required=True)
-@click.option("--url", default="http://localhost:8080/", show_default=True,
-              help="The address that participants use.")  # fmt: skip
+@click.option("--url", help="The address that participants use, as `ana study serve` prints it.  "
+              "[default: http://localhost:8080/]")  # fmt: skip
 @click.option("--panel", is_flag=True,
               help="The IDs are a panel's: print what they are called in the study.")  # fmt: skip
 @_PILOT
 def print_invitations(
-    folder: Path, participants: tuple[str, ...], url: str, *, panel: bool, pilot: bool
+    folder: Path, participants: tuple[str, ...], url: str | None, *, panel: bool, pilot: bool
 ) -> None:
     """Print each participant ID and a link that opens that participant's session.
 

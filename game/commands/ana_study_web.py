@@ -10,6 +10,11 @@ import click
 
 from game.errors import AnaError
 
+_HERE = "http://localhost:8080/"
+_ONLY_HERE = (
+    f"note: these links go to {_HERE}, where `ana study serve` listens if nothing else is said. "
+    "Give another address with --url"
+)
 _BARE = """\
   note: other computers can reach this, and links, keys and answers can be read on the way. For
   anything but a closed network put a proxy with TLS before it (docs/lab.md), and give its --url"""
@@ -60,14 +65,14 @@ def serve_study(folder: Path, host: str, port: int, url: str | None, sessions: i
 
 
 def print_links(
-    folder: Path, participants: tuple[str, ...], url: str, *, pilot: bool, panel: bool
+    folder: Path, participants: tuple[str, ...], url: str | None, *, pilot: bool, panel: bool
 ) -> None:
     """Print a link for each participant; see `ana study invite --help`. Nothing is printed where
     one of them is no ID, or is not on the roster."""
     from game.study.folder import admit_by_roster, identify, open_study
     from game.study.links import LINK, checked_address, panel_pseudonym, study_key, token
 
-    study, address = open_study(folder), checked_address(url)
+    study, address = open_study(folder), checked_address(url or _HERE)
     key = study_key(study.folder)
     hashed = panel and study.settings.web.hash_ids
     names = [panel_pseudonym(key, it) if hashed else it for it in participants]
@@ -75,3 +80,5 @@ def print_links(
         admit_by_roster(study.folder, identify(name, pilot=pilot))
     for name in names:
         click.echo(f"{name}\t{address}?{LINK}={token(key, name, pilot=pilot)}")
+    if url is None:
+        click.echo(_ONLY_HERE, err=True)

@@ -257,7 +257,9 @@ def _id(item: Item) -> str:
 def _once(what: str, ids: Sequence[str]) -> None:
     for identifier in ids:
         if ids.count(identifier) > 1:
-            raise ValueError(f"two {what} have the id {identifier}")
+            raise ValueError(
+                f"two {what} have the id {identifier}; delete one of them, or give it another id"
+            )
 
 
 def _check_condition(name: str, asked: AnyQuestion, wanted: int | tuple[int, ...] | None) -> None:

@@ -27,6 +27,7 @@ from game.forms.items import (
     Weights,
 )
 from game.forms.placeholders import check_text
+from game.toml_words import in_plain_words, listed, parted
 
 FORMS, ITEMS = "forms.toml", "items.toml"
 FILLED = "instructor"
@@ -91,7 +92,8 @@ def read_forms(folder: Path, pages: Pages | None) -> ReadForms:
             hint="Delete the one that is not meant",
         )
     if path.exists() or not older.exists():
-        return ReadForms(forms_in(_tree(path), str(path)), FORMS)
+        text = _text(path)
+        return ReadForms(forms_in(_tree(text, path), str(path), text), FORMS)
     if pages is None:
         raise FormsError(
             f"there is no {FORMS}, and {ITEMS} of an earlier study needs the pages mental_state, "
@@ -99,7 +101,7 @@ def read_forms(folder: Path, pages: Pages | None) -> ReadForms:
             place=str(older),
             hint=f"Copy {FORMS} from a new study folder, and delete {ITEMS}",
         )
-    forms = _of_items(_tree(older), str(older), pages)
+    forms = _of_items(_tree(_text(older), older), str(older), pages)
     return ReadForms(
         forms,
         ITEMS,
@@ -108,32 +110,41 @@ def read_forms(folder: Path, pages: Pages | None) -> ReadForms:
     )
 
 
-def _tree(path: Path) -> dict[str, Any]:
+def _text(path: Path) -> str:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise FormsError(
             f"the file cannot be read ({error.strerror})",
             place=str(path),
             hint="Copy the file from a new study folder",
         ) from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise FormsError("the file is not UTF-8 text", place=str(path)) from error
+
+
+def _tree(text: str, path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
         raise FormsError(
             f"this is not TOML: {error}", place=str(path), hint="Mend the line that it names"
         ) from error
 
 
-def forms_in(tree: Mapping[str, Any], place: str) -> Forms:
-    """The forms of a file's `tree`. Raises FormsError, which names `place`."""
+def forms_in(tree: Mapping[str, Any], place: str, text: str = "") -> Forms:
+    """The forms of a file's `tree`. Raises FormsError, which names `place`, and where an id stands
+    twice its lines in the file's `text`."""
     try:
         forms = msgspec.convert(_with_answers(tree), Forms)
     except msgspec.ValidationError as error:
-        message, path = str(error).partition(" - at `")[::2]
-        where, kind = _where(tree, path.rstrip("`"))
+        message, path = parted(str(error))
+        where, kind = _where(tree, path)
+        where = where or _lines(message, text)
         raise FormsError(
-            message.replace("Object contains unknown field", "there is no key"),
+            in_plain_words(message),
             place=f"{place}, {where}" if where else place,
-            hint=_hint(message, kind),
+            hint=listed(message, path, _with_answers(tree)) or _hint(message, kind),
         ) from error
     _check_placeholders(forms, place)
     return forms
@@ -182,6 +193,16 @@ def _where(tree: Mapping[str, Any], path: str) -> tuple[str, str]:
     return ", ".join(named), last
 
 
+def _lines(message: str, text: str) -> str:
+    """In which lines of the text the id stands that a message calls doubled."""
+    doubled = re.match(r"two \w+ have the id (\w+)", message)
+    if doubled is None or not text:
+        return ""
+    given = re.compile(rf"""\s*id\s*=\s*["']{doubled[1]}["']""")
+    lines = [str(n) for n, line in enumerate(text.splitlines(), start=1) if given.match(line)]
+    return f"lines {' and '.join(lines)}" if lines else ""
+
+
 _KEYS_OF = {"form": Form, "composite": Composite, "shown_when": Condition, "weights": Weights,
             "": Forms, **_KINDS}  # fmt: skip
 _CHOICES: dict[str, tuple[str, ...]] = {
@@ -201,7 +222,7 @@ def _hint(message: str, key: str) -> str:
     invalid = re.search(r"[Ii]nvalid (?:enum )?value '(.*)'", message)
     if key in _CHOICES:
         return choose_from(invalid[1] if invalid else "", _CHOICES[key])
-    return "docs/lab.md lists every key"
+    return "docs/lab.md lists every key" if in_plain_words(message) != message else ""
 
 
 def _check_placeholders(forms: Forms, place: str) -> None:

@@ -25,7 +25,7 @@ from game.coach.instructions.phrasebook import Phrasebook
 from game.coach.instructions.phrasebook_file import english, parse_phrasebook
 from game.coach.spec import DEFAULT_PRESET
 from game.coach.yoke import Yoke
-from game.errors import AnaError, did_you_mean
+from game.errors import AnaError, choose_from, did_you_mean
 from game.forms.form import Forms
 from game.forms.reading import FORMS, paper_text, read_forms
 from game.journal.folders import SESSIONS
@@ -33,6 +33,8 @@ from game.journal.records import StudyCopy, StudyMode
 from game.journal.sink import make_folders
 from game.study.course import Course, course
 from game.study.donors import donated
+from game.study.files import LEDGER as LEDGER
+from game.study.files import SETTINGS as SETTINGS
 from game.study.languages import ENGLISH, Translation
 from game.study.ledger import (
     Ledger,
@@ -52,11 +54,11 @@ from game.study.study_settings import (
 )
 from game.study.texts import Texts, read_texts
 from game.tables.asked import asked_columns
-from game.world import load_building
 from game.world.building import Building
 from game.world.fitness import shortcomings
+from game.world.library import GENERATED, load_building, shipped_buildings
 
-SETTINGS, TEXTS, LEDGER = "study.toml", "texts.toml", "ledger.jsonl"
+TEXTS = "texts.toml"
 INSTRUCTIONS = "instructions.toml"
 """What the instructors say; older folders lack it, and mean the shipped English."""
 VERSIONS = "versions"
@@ -305,8 +307,8 @@ def open_study(folder: Path) -> Study:
     forms, asked, note = read_forms(folder, texts.form_pages)
     asked_columns(forms)
     phrases = read_phrasebook(folder / INSTRUCTIONS)
-    buildings = tuple(_building(folder, name) for name in settings.buildings)
-    practice = _building(folder, settings.practice_building)
+    buildings = tuple(_building(folder, name, "buildings") for name in settings.buildings)
+    practice = _building(folder, settings.practice_building, "practice_building")
     study = Study(
         folder=folder,
         settings=settings,
@@ -403,10 +405,20 @@ def _same_as_created(settings: StudySettings, entries: tuple[LedgerEntry, ...], 
             )
 
 
-def _building(folder: Path, name: str) -> Building:
-    """A building file of the study folder, or a shipped building."""
+def _building(folder: Path, name: str, key: str) -> Building:
+    """A building file of the study folder, or a shipped building. Raises AnaError, which names the
+    `key` of study.toml where there is no such building."""
     beside = folder / name
-    return load_building(beside if beside.is_file() else name)
+    if beside.is_file():
+        return load_building(beside)
+    if name in shipped_buildings() or name.startswith(f"{GENERATED}:") or Path(name).is_file():
+        return load_building(name)
+    files = sorted(path.name for path in folder.glob("*.txt"))
+    raise StudyError(
+        f"there is no building '{name}', neither in this folder nor among those that are shipped",
+        place=f"{folder / SETTINGS}, {key}",
+        hint=choose_from(name, (*files, *shipped_buildings())),
+    )
 
 
 def _check_map(building: Building, screen: ScreenSize) -> None:

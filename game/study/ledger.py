@@ -22,6 +22,7 @@ from msgspec.structs import replace
 from game.errors import AnaError, disk_hint
 from game.journal.records import StudyMode
 from game.study.design import PAPER, Design, DesignCell
+from game.study.files import NEW_STUDY, NO_STUDY, SETTINGS
 
 SessionEnding = Literal["finished", "declined", "withdrawn", "dropped", "turned_away"]
 
@@ -132,6 +133,13 @@ class Ledger:
         """All entries. A last line that a crash left unfinished does not count."""
         try:
             data = self.path.read_bytes()
+        except FileNotFoundError as error:
+            if not self.path.with_name(SETTINGS).exists():
+                folder = str(self.path.parent)
+                raise LedgerError(NO_STUDY, place=folder, hint=NEW_STUDY) from error
+            raise LedgerError(
+                "the ledger is missing", place=str(self.path), hint="Restore it from a backup"
+            ) from error
         except OSError as error:
             raise LedgerError(
                 f"the ledger cannot be read ({error.strerror})",

@@ -16,9 +16,11 @@ from game.coach.own import SEPARATOR
 from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
 from game.coach.spec import DEFAULT_PRESET
-from game.errors import AnaError, did_you_mean
+from game.errors import AnaError, did_you_mean, disk_hint
 from game.study.design import Design
+from game.study.files import LEDGER, NEW_STUDY, NO_STUDY
 from game.study.instructors import Instructor, instructor_named
+from game.toml_words import in_plain_words, listed, parted
 from game.world.settings import MissionSettings
 
 ADAPTIVE = "ana"
@@ -272,11 +274,17 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
         data = path.read_bytes()
         text = data.decode("utf-8-sig")
         tree = tomllib.loads(text)
+    except FileNotFoundError as error:
+        if not (path.parent / LEDGER).exists():
+            raise SettingsError(NO_STUDY, place=str(path.parent), hint=NEW_STUDY) from error
+        raise SettingsError(
+            "the settings are missing", place=str(path), hint="Restore the file from a backup"
+        ) from error
     except OSError as error:
         raise SettingsError(
             f"the settings cannot be read ({error.strerror})",
             place=str(path),
-            hint="`ana study new` makes a study folder with a study.toml",
+            hint=disk_hint(error),
         ) from error
     except UnicodeDecodeError as error:
         raise SettingsError("the file is not UTF-8 text", place=str(path)) from error
@@ -286,9 +294,11 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
         _no_unknown_rules(tree.get("mission"))
         settings = msgspec.convert(tree, StudySettings)
     except msgspec.ValidationError as error:
-        message, key = _parted(str(error))
-        place = f"{path}, {key}" if key else str(path)
-        raise SettingsError(message, place=place, hint=_suggestion(message)) from error
+        found, key = parted(str(error))
+        message = in_plain_words(found, "setting")
+        place = f"{path}, {key.removeprefix('$.')}" if key.strip("$") else str(path)
+        hint = listed(found, key, tree) or _suggestion(message)
+        raise SettingsError(message, place=place, hint=hint) from error
     return settings, sha256(data).hexdigest()
 
 
@@ -300,13 +310,6 @@ def _no_unknown_rules(mission: object) -> None:
             raise msgspec.ValidationError(
                 f"Object contains unknown field `{name}` - at `$.mission`"
             )
-
-
-def _parted(error: str) -> tuple[str, str]:
-    """msgspec's message without its path, and the path as a person would write it."""
-    message, _, path = error.partition(" - at `")
-    message = message.replace("Object contains unknown field", "there is no setting")
-    return message, path.rstrip("`").removeprefix("$").lstrip(".")
 
 
 def _suggestion(message: str) -> str:

@@ -15,6 +15,7 @@ from game.forms.checks import told_apart
 from game.forms.placeholders import check_placeholders
 from game.forms.reading import Pages
 from game.mission_words import MissionWords
+from game.toml_words import in_plain_words, parted
 from game.world.events import LevelWish
 
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
@@ -37,6 +38,9 @@ EARLIER_PAGES = {
 
 class TextsError(AnaError):
     """The file of texts cannot be used as it is."""
+
+
+_COMPARE = "Compare the file with the one in a new study folder"
 
 
 class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -274,10 +278,12 @@ def read_texts(path: Path) -> Texts:
             place=str(path),
             hint="Copy the file from a new study folder",
         ) from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
-        raise TextsError(
-            str(error), place=str(path), hint="Compare the file with the one in a new study folder"
-        ) from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise TextsError(f"this is not TOML: {error}", place=str(path), hint=_COMPARE) from error
+    except msgspec.ValidationError as error:
+        found, key = parted(str(error))
+        place = f"{path}, {key.removeprefix('$.')}" if key.strip("$") else str(path)
+        raise TextsError(in_plain_words(found), place=place, hint=_COMPARE) from error
     check_placeholders(tree, shipped | EARLIER_PAGES, str(path))
     return read
 

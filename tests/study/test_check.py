@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import re
 import shutil
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 from PIL import Image
 
 from game.cli import main
+from game.errors import AnaError
 from game.screens.study import pictures, rehearsal
 from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
@@ -145,6 +147,47 @@ def test_a_primary_outcome_that_nothing_measures_is_told(folder: Path) -> None:
     assert len(told) == 2
     assert "Did you mean engagement?" in told[0]
     assert "forms.toml asks no such item" in told[1]
+
+
+@pytest.mark.parametrize(
+    ("name", "before", "after", "told"),
+    [
+        (
+            "study.toml", "memorise_seconds = [60, 180]", "memorise_seconds = 20",
+            "study.toml, memorise_seconds: this must be a list in brackets, not a whole number. "
+            "Write [20]",
+        ),
+        (
+            "study.toml", "duration_ms = 240000", 'duration_ms = "4 min"',
+            "study.toml, mission.duration_ms: this must be a whole number, not text in quotes",
+        ),
+        (
+            "study.toml", '"foundry"', '"foundryy.txt"',
+            "study.toml, buildings: there is no building 'foundryy.txt', neither in this folder "
+            "nor among those that are shipped. Did you mean foundry?",
+        ),
+        (
+            "texts.toml", 'go_on = "continue"', "go_on = 3",
+            "texts.toml, words.go_on: this must be text in quotes, not a whole number",
+        ),
+        (
+            "forms.toml", 'id = "likert"', 'id = "sliders"',
+            "two forms have the id sliders; delete one of them, or give it another id",
+        ),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_a_file_is_told_in_plain_words(
+    folder: Path, name: str, before: str, after: str, told: str
+) -> None:
+    with pytest.raises(AnaError, match=re.escape(told)):
+        edit(folder, name, before, after)
+
+
+def test_a_doubled_id_is_told_with_its_lines(folder: Path) -> None:
+    text = (folder / "forms.toml").read_text("utf-8").splitlines()
+    first, second = (text.index(f'id = "{name}"') + 1 for name in ("sliders", "likert"))
+    with pytest.raises(AnaError, match=f"forms.toml, lines {first} and {second}: two forms"):
+        edit(folder, "forms.toml", 'id = "likert"', 'id = "sliders"')
 
 
 def test_a_machine_without_the_font_is_told_which(

@@ -10,15 +10,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from msgspec.structs import replace
 
 from game.commands.ana_study import study_group
 from game.journal.folders import JOURNAL
 from game.journal.reader import read_journal
+from game.screens.lab.status_screen import status_rows
 from game.study.design import design_cell
 from game.study.folder import Identity, Study, StudyError, open_study
 from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.lab.leaving import drop_out, withdraw
-from game.study.lab.status_text import age
+from game.study.lab.status_text import age, page
 from game.study.lab.study_status import StatusReader, breakdown
 from game.study.ledger import NoPlace, Unblinded
 from game.study.lock import LOCK, SessionLock
@@ -69,7 +71,28 @@ def test_resumed_sessions_are_counted(study: Study) -> None:
     cut_off(study, P01, at="label")
     take_part(study, P01)
     now = seen(study)["P01"]
-    assert (now.state, now.resumed) == ("finished", 1)
+    assert (now.state, now.interruptions, now.resumed) == ("finished", 1, 1)
+
+
+def test_a_session_that_broke_off_is_interrupted_before_anybody_comes_back(study: Study) -> None:
+    cut_off(study, P01, at="label")
+    assert (seen(study)["P01"].interruptions, seen(study)["P01"].resumed) == (1, 0)
+
+
+def test_pilots_and_simulated_people_are_counted_and_are_no_problem(study: Study) -> None:
+    take_part(study, Identity("pilot", "T01"))
+    for participant in ("S1", "S2"):
+        cut_off(study, Identity("simulated", participant), at="label")
+    now = replace(StatusReader(study.folder).look(), hindrances=())
+    assert now.problems == ()
+    told = list(page(now))
+    assert told[2:4] == [
+        "Pilot sessions: started 1, finished 1",
+        "Simulated sessions: started 2, cut off 2",
+    ]
+    assert all(line.split()[-3] == "-" for line in told if line.startswith("S1 "))
+    screen = ["".join(text for text, _ in row) for row in status_rows(now)]
+    assert " Simulated sessions: started 2, cut off 2" in screen
 
 
 def test_a_session_whose_process_lives_takes_part(study: Study) -> None:

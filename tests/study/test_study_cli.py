@@ -5,10 +5,14 @@ from __future__ import annotations
 import errno
 import os
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
+from click.testing import CliRunner, Result
 
 from game.cli import main
+from game.commands.ana_study import study_group
+from game.study.files import NEW_STUDY
 from game.study.folder import Identity, Study, open_study
 from game.study.ledger import Unblinded, ending_of
 from tests.study.people import P01, small_study, take_part
@@ -51,11 +55,21 @@ def test_a_change_is_amended(copy: Study, capsys: pytest.CaptureFixture[str]) ->
 
 def test_withdrawal(copy: Study, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot", "--yes"]) == 0
-    assert "their data are deleted" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "their data are deleted\nDatasets exported before" in told
     assert not copy.home(P01).exists()
     assert ending_of(copy.ledger.entries(), "P01", "pilot") == "withdrawn"
     assert main(["study", "withdraw", str(copy.folder), "P01", "--pilot", "--yes"]) == 0
-    assert "nothing had been recorded" in capsys.readouterr().out
+    assert "nothing had been recorded\n" in capsys.readouterr().out
+
+
+def test_a_pilot_is_not_taken_for_a_live_participant(
+    copy: Study, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for command in (["withdraw"], ["data", "out"]):
+        name, *rest = command
+        assert main(["study", name, str(copy.folder), "P01", *rest]) == 2
+        assert "P01 is a pilot: add --pilot" in capsys.readouterr().err
 
 
 def test_closing_says_what_happens_to_everyone(
@@ -96,10 +110,60 @@ def test_analysing_an_open_study_unblinds_it_as_an_export_does(
 ) -> None:
     assert main(["study", "export", str(live.folder), str(tmp_path / "dataset")]) == 0
     words = capsys.readouterr().err
-    assert words == "The study is still open: the ledger now records that it was unblinded.\n"
+    assert words.startswith("The study is still open, and this shows who was allocated what: ")
     assert analyse(live) == 2, "one participant is too few for every model"
     assert capsys.readouterr().err == words
     assert unblindings(live) == ["ana study export", "ana analyse"]
+
+
+def test_an_export_that_unblinds_is_asked_about_at_a_terminal(
+    live: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("game.commands.ana_study.sys", Mock(stdin=Mock(isatty=lambda: True)))
+    out = tmp_path / "dataset"
+
+    def export(answer: str, *options: str) -> Result:
+        arguments = ["export", str(live.folder), str(out), *options]
+        return CliRunner().invoke(study_group, arguments, input=answer)
+
+    refused = export("n\n")
+    assert refused.exit_code == 1
+    assert "the ledger will record that the study was unblinded" in refused.output
+    assert not out.exists()
+    assert unblindings(live) == []
+    assert export("", "--mode", "pilot").exit_code == 0
+    assert unblindings(live) == []
+    done = export("", "--yes")
+    assert "the earlier export had pilot sessions too, and was replaced" in done.output
+    export("y\n")
+    live.ledger.close()
+    assert export("").exit_code == 0
+    assert len(unblindings(live)) == 2
+
+
+def test_an_export_of_nobody_says_who_is_there(
+    copy: Study, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", "export", str(copy.folder), str(tmp_path / "dataset")]) == 2
+    told = capsys.readouterr().err
+    assert "no live sessions to export. It has 1 pilot session: give --mode pilot" in told
+    assert not (tmp_path / "dataset").exists()
+    assert unblindings(copy) == []
+
+
+@pytest.mark.parametrize("command", ["status", "close", "design"])
+def test_a_folder_that_is_no_study_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    for folder in (tmp_path, tmp_path / "nowhere"):
+        assert main(["study", command, str(folder)]) == 2
+        told = capsys.readouterr().err
+        assert told == f"ana: {folder}: there is no study here. {NEW_STUDY}\n"
+
+
+def test_a_source_that_is_not_there_is_told_first(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["analyse", "nowhere"]) == 2
+    assert "nowhere: there is nothing there" in capsys.readouterr().err
 
 
 def test_analysing_a_closed_study_or_pilots_is_not_recorded(

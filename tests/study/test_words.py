@@ -23,7 +23,7 @@ def test_the_shipped_texts_are_the_words_of_free_play() -> None:
         ('yes = "y"\nno = "n"', 'yes = "x"\nno = "X"', "must be different letters"),
         ('yes = "y"\nno = "n"', 'yes = "n"\nno = "x"', "must be different letters"),
         ("facing {direction}", "facing {way}", "there is no {way} to be filled in"),
-        ('stand_beside = "', 'stand_besides = "', "unknown field `stand_besides`"),
+        ('stand_beside = "', 'stand_besides = "', "there is no key `stand_besides`"),
     ],
 )
 def test_words_that_cannot_be_used_are_refused(

@@ -17,7 +17,14 @@ from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
 from game.study.lab.attendance import SessionStatus
-from game.study.lab.status_text import HEADER, HINDRANCES, session_cells, study_line, totals_line
+from game.study.lab.status_text import (
+    HEADER,
+    HINDRANCES,
+    other_lines,
+    session_cells,
+    study_line,
+    totals_line,
+)
 from game.study.lab.study_status import StatusReader, StudyStatus
 
 EVERY_S = 1.0
@@ -36,7 +43,8 @@ def status_rows(status: StudyStatus) -> list[Row]:
     """The screen's lines: the study, its totals, a line a session, and what is wrong."""
     rows: list[Row] = [
         ((f" {study_line(status)}", "title"),),
-        ((f" {totals_line(status.totals)}", "quiet"),),
+        ((f" Live sessions: {totals_line(status.totals)}", "quiet"),),
+        *(((f" {line}", "quiet"),) for line in other_lines(status.sessions)),
         BLANK,
     ]
     if status.hindrances:

@@ -23,7 +23,6 @@ from game.journal.records import (
     Declined,
     Envelope,
     Exposed,
-    Interruption,
     Phase,
     PhaseEnded,
     PhaseStarted,
@@ -43,15 +42,7 @@ SILENCE_S = 10.0
 """A timed phase writes every second; one that is silent for longer hangs."""
 
 _Telling = (
-    PhaseStarted
-    | Exposed
-    | PhaseEnded
-    | Allocated
-    | Declined
-    | Withdrawn
-    | Interruption
-    | Resumed
-    | SessionEnded
+    PhaseStarted | Exposed | PhaseEnded | Allocated | Declined | Withdrawn | Resumed | SessionEnded
 )
 """The records that move a session on; of all others only the envelope is looked at."""
 
@@ -70,7 +61,9 @@ class SessionStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     `clock_s` is how long a timed phase has been on the screen and `limit_s` its whole length;
     both are None in untimed phases and while memorising, whose length is allocated.
-    `silent_s` is the age of the last record.
+    `silent_s` is the age of the last record. `interruptions` counts how often the session broke
+    off, on purpose or not, the last time included where nobody has come back yet; `resumed` how
+    often it was continued.
     """
 
     participant: str
@@ -141,7 +134,7 @@ class SessionWatch:
             clock_s=self.history.exposure_ms / 1000 if told else None,
             limit_s=_limit_s(self.history.step.phase, settings) if told else None,
             silent_s=silent_s,
-            interruptions=self.history.interruptions,
+            interruptions=self.history.resumed + (state in ("left", "cut off")),
             resumed=self.history.resumed,
             problems=tuple(self._problems(state, silent_s)),
         )
@@ -175,7 +168,8 @@ class SessionWatch:
             found.append(
                 f"the journal ends in an unfinished line ({len(self._tail)} bytes, ignored)"
             )
-        if state == "cut off" and not self.trouble:
+        person = self.identity.mode != "simulated"
+        if state == "cut off" and person and not self.trouble:
             found.append("the program ended unexpectedly; the participant can log in again")
         silent = silent_s is not None and silent_s > SILENCE_S
         if state == "taking part" and self._timed and silent:

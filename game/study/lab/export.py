@@ -19,9 +19,9 @@ import msgspec
 from game import __version__
 from game.errors import disk_hint
 from game.forms.reading import BLANK, ReadForms, read_forms
-from game.journal.folders import JOURNAL, SESSIONS
+from game.journal.folders import JOURNAL, SESSIONS, journals
 from game.journal.reader import Transcript, read_file
-from game.journal.records import StudyMode
+from game.journal.records import STUDY_MODES, StudyMode
 from game.journal.sink import make_folders
 from game.study.folder import INSTRUCTIONS, LEDGER, SETTINGS, TEXTS, VERSIONS, StudyError
 from game.study.lab.anonymous import anonymised
@@ -36,10 +36,11 @@ from game.study.lab.psychds import (
     table_text,
 )
 from game.study.lab.sessions import sessions_of
-from game.study.ledger import Ledger, LedgerEntry, slot_of
+from game.study.ledger import Ledger, LedgerEntry, is_closed, slot_of
 from game.study.study_settings import StudySettings, read_settings
 from game.tables.rows import TableRow
 from game.tables.session_tables import ROW_TYPES, Tables, combined, row_types, tables_of
+from game.toml_words import in_plain_words, parted
 
 DATASET = "dataset.toml"
 """The optional file of `DatasetNotes` in the study folder."""
@@ -52,11 +53,13 @@ FREE_TEXT = "freetext"
 @dataclass(frozen=True)
 class Exported:
     """What was written: the number of sessions and rounds of each mode. `unblinded` means that the
-    study is open and the ledger now records that its allocation was looked at."""
+    study is open and the ledger now records that its allocation was looked at; `dropped` are modes
+    that an earlier export in the same place had and this one has not."""
 
     sessions: dict[StudyMode, int]
     rounds: dict[StudyMode, int]
     unblinded: bool
+    dropped: tuple[StudyMode, ...] = ()
 
 
 def export_study(
@@ -71,9 +74,9 @@ def export_study(
 
     The sessions in the folders `without` are left out, and the dataset says so. `anonymous` gives
     everybody another pseudonym and other dates, and leaves their own words out. Exporting the live
-    data of an open study unblinds it, which the ledger records. Raises StudyError if `out` is
-    something else, and JournalError for a journal that cannot be read or does not belong there; in
-    both cases nothing is changed.
+    data of an open study unblinds it, which the ledger records. Raises StudyError if there is no
+    session of these modes or `out` is something else, and JournalError for a journal that cannot be
+    read or does not belong there; in both cases nothing is changed.
     """
     ledger = Ledger(folder / LEDGER)
     settings, _ = read_settings(folder / SETTINGS)
@@ -90,16 +93,49 @@ def export_study(
             sessions = anonymised(sessions)
         found[mode] = combined(tables_of((transcript for transcript, _ in sessions), forms.forms))
         for transcript, lines in sessions:
-            files[f"data/raw/{mode}/{transcript.started.participant}/{JOURNAL}"] = lines
+            files[f"{_raw(mode)}/{transcript.started.participant}/{JOURNAL}"] = lines
     _all_there(folder, modes, without, entries)
+    if not any(tables.participants for tables in found.values()):
+        raise _nothing_there(folder, modes)
     files |= _described(folder, settings, forms, found, _Handling(tuple(without), anonymous))
     _check_target(folder, out, files)
     unblinded = "live" in found and ledger.unblind("ana study export")
+    dropped = tuple(
+        mode for mode in STUDY_MODES if mode not in found and (out / _raw(mode)).is_dir()
+    )
     _replace(out, files)
     return Exported(
         sessions={mode: len(tables.participants) for mode, tables in found.items()},
         rounds={mode: len(tables.rounds) for mode, tables in found.items()},
         unblinded=unblinded,
+        dropped=dropped,
+    )
+
+
+def unblinds(folder: Path, modes: Collection[StudyMode]) -> bool:
+    """Whether exporting these modes would unblind the study in `folder`. Raises LedgerError."""
+    closed = is_closed(Ledger(folder / LEDGER).entries())
+    return "live" in modes and not closed and bool(journals(folder, "live"))
+
+
+def _raw(mode: StudyMode) -> str:
+    """The folder of a mode's journals in a dataset."""
+    return f"data/raw/{mode}"
+
+
+def _nothing_there(folder: Path, modes: Sequence[StudyMode]) -> StudyError:
+    """The error where there is not one session of these modes."""
+    others = {mode: len(journals(folder, mode)) for mode in STUDY_MODES if mode not in modes}
+    there = [
+        f"{count} {mode} {'session' if count == 1 else 'sessions'}"
+        for mode, count in others.items()
+        if count
+    ]
+    give = " or ".join(f"--mode {mode}" for mode, count in others.items() if count)
+    return StudyError(
+        f"there are no {' or '.join(dict.fromkeys(modes))} sessions to export",
+        place=str(folder),
+        hint=f"It has {' and '.join(there)}: give {give}" if there else "",
     )
 
 
@@ -277,7 +313,7 @@ def _notes(folder: Path) -> DatasetNotes:
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         fields = ", ".join(DatasetNotes.__struct_fields__)
         raise StudyError(
-            f"the notes on the dataset are not valid: {error}",
+            f"the notes on the dataset are not valid: {in_plain_words(*parted(str(error))[:1])}",
             place=str(path),
             hint=f"The file can set {fields}",
         ) from error

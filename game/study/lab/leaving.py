@@ -10,6 +10,7 @@ from game.journal.folders import JOURNAL, folders_of, has_journal
 from game.journal.history import read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import read_journal
+from game.journal.records import StudyMode
 from game.journal.sink import sync_folder
 from game.study.folder import Identity, Study, StudyError
 from game.study.ledger import ending_of, slot_of
@@ -66,11 +67,12 @@ def recorded(study: Study, identity: Identity) -> Recorded:
     mode, participant = identity
     known = slot_of(entries, participant, mode) or ending_of(entries, participant, mode)
     if not known and home not in folders_of(study.folder, mode):
-        there = [one.name for one in folders_of(study.folder, mode)]
         raise StudyError(
             f"there is no participant {participant} among the {mode} ones of this study",
             place=str(study.folder),
-            hint=did_you_mean(participant, there) or "`ana study status` lists who there is",
+            hint=_in_another_mode(study, identity)
+            or did_you_mean(participant, [one.name for one in folders_of(study.folder, mode)])
+            or "`ana study status` lists who there is",
         )
     try:
         if not has_journal(home):
@@ -82,6 +84,23 @@ def recorded(study: Study, identity: Identity) -> Recorded:
     return Recorded(
         history.started_utc, history.step.phase, history.step.round, len(transcript.entries)
     )
+
+
+def _in_another_mode(study: Study, identity: Identity) -> str:
+    """The hint where the ID is that of a pilot or of a live participant, and the other was meant;
+    else empty."""
+    participant = identity.participant
+    for mode, hint in _OTHER_MODES.items():
+        if mode != identity.mode and study.home(Identity(mode, participant)).is_dir():
+            return f"{participant} is {hint}"
+    return ""
+
+
+_OTHER_MODES: dict[StudyMode, str] = {
+    "pilot": "a pilot: add --pilot",
+    "live": "a live participant: leave --pilot out",
+    "simulated": "a simulated person",
+}
 
 
 def withdraw(study: Study, identity: Identity) -> bool:

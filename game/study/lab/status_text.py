@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from game.journal.records import STUDY_MODES
 from game.study.lab.attendance import SessionStatus
 from game.study.lab.study_status import CellCount, StudyStatus, Totals
 
@@ -32,6 +33,16 @@ def totals_line(totals: Totals) -> str:
     return ", ".join(shown).replace("_", " ").replace("dropped", "dropped out")
 
 
+def other_lines(sessions: Sequence[SessionStatus]) -> Iterator[str]:
+    """A line for the pilots and one for the simulated people, where there are any: how many are in
+    each state."""
+    for mode in STUDY_MODES[1:]:
+        states = [session.state for session in sessions if session.mode == mode]
+        if states:
+            counts = (f"{state} {states.count(state)}" for state in dict.fromkeys(sorted(states)))
+            yield f"{mode.capitalize()} sessions: started {len(states)}, {', '.join(counts)}"
+
+
 def session_cells(session: SessionStatus) -> tuple[str, ...]:
     """A session's row under `HEADER`."""
     phase = f"{session.phase}, round {session.round}" if session.round else session.phase
@@ -41,7 +52,7 @@ def session_cells(session: SessionStatus) -> tuple[str, ...]:
         session.state,
         phase,
         _clock(session),
-        age(session.silent_s),
+        "-" if session.mode == "simulated" else age(session.silent_s),
         str(session.interruptions),
         str(session.resumed),
     )
@@ -55,6 +66,7 @@ def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
         yield from (f"  {hindrance}" for hindrance in status.hindrances)
         yield ""
     yield f"Live sessions: {totals_line(status.totals)}"
+    yield from other_lines(status.sessions)
     if status.sessions:
         yield ""
         yield from _aligned([HEADER, *(session_cells(one) for one in status.sessions)])
