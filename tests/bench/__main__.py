@@ -17,6 +17,7 @@ from tests.bench.coach import coach_costs, coached_keys, mission_s, office_ms, r
 from tests.bench.screen import COLUMNS, ROWS, KeyCosts, first_paints_ms, key_costs
 from tests.bench.simulation import missions_a_second, simulation_rates
 from tests.bench.ssh import at_once
+from tests.bench.statistics import analyse_s, analyse_shipped_s, r_s
 from tests.bench.together import PARTICIPANTS
 from tests.bench.web import in_browsers
 from tests.study.server import SSH, SSHD
@@ -122,6 +123,16 @@ def simulating() -> Iterator[Figure]:
         yield Figure(f"four-minute missions a core, {coach}", rate, "/s")
 
 
+def statistics() -> Iterator[Figure]:
+    """`ana analyse` from the command to the numbers, beside R's packages for the same tests; the
+    processor's seconds, cold."""
+    yield Figure("analyse, the shipped study", analyse_shipped_s(), "s", 3.5)
+    theirs = r_s()
+    if theirs is None:
+        click.echo("statistics: R or one of the packages of `make reference` is not installed")
+    yield Figure("analyse, 100 people; floor: R", analyse_s(), "s", theirs and 0.5, theirs)
+
+
 def ssh() -> Iterator[Figure]:
     """Participants at once in the mission of a study, 8 keys a second each at pace 20, over a real
     OpenSSH server on the loopback."""
@@ -153,6 +164,7 @@ PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
     "coaching": coaching,
     "generating": generating,
     "simulating": simulating,
+    "statistics": statistics,
     "ssh": ssh,
     "web": web,
 }
