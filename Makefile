@@ -67,7 +67,7 @@ COMPILE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.1
   --group build --quiet
 
 pins: $(VENV)/all.stamp  ## resolve the dependencies anew and pin them
-	$(COMPILE) --upgrade --all-extras --output-file requirements/all.txt
+	$(COMPILE) --upgrade --extra dev --output-file requirements/all.txt
 	$(COMPILE) --upgrade --constraint requirements/all.txt --output-file requirements/play.txt
 	$(COMPILE) --upgrade --constraint requirements/all.txt --extra web --output-file requirements/web.txt
 

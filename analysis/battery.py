@@ -17,6 +17,8 @@ from analysis.sources.study_folder import Tick, is_study_folder
 from analysis.stats.adaptivity import adaptivity_tests, why_they_differ
 from analysis.stats.anova import EFFECTS, Effect, mixed_anova
 from analysis.stats.assumptions import assumption_rows, hc3_rows
+from analysis.stats.bayes import SEED as BAYES_SEED
+from analysis.stats.bayes import bayes_rows, need_bayes
 from analysis.stats.cellmodel import contrast_row, weights_of
 from analysis.stats.clustering import Clustering
 from analysis.stats.composites import composite_rows
@@ -248,17 +250,23 @@ def analyse_source(
     tick: Tick = lambda _done, _all: None,
     loaded: Callable[[], object] = lambda: None,
     alpha: float = ALPHA,
+    bayes: bool = False,
 ) -> BatteryResult:
     """Read a source as `load` does, run the battery, and write the figures and the report where
     folders are given. `loaded` is called once the source was read, before anything comes of it.
+    With `bayes` the results have Bayesian mixed models.
 
-    Raises SourceError or JournalError where the source cannot be read, OSError where a folder
-    cannot be written.
+    Raises SourceError or JournalError where the source cannot be read, MissingExtraError where
+    `bayes` cannot be had, OSError where a folder cannot be written.
     """
+    if bayes:
+        need_bayes()
     read = load(source, quiz, mode, check=check, tick=tick)
     loaded()
     rules = read_rules().known_to(list(read.study.participants.columns))
     result = run_battery(read.study, rules, alpha)
+    if bayes:
+        _add_bayes(result, alpha)
     made = signed(result, source, quiz, mode, verified=check and is_study_folder(source))
     if figures is not None:
         from analysis.pages.figures import write_figures
@@ -286,6 +294,15 @@ def analyse_source(
     return result
 
 
+def _add_bayes(result: BatteryResult, alpha: float) -> None:
+    values, reasons = plain({"bayes": bayes_rows(result.study, alpha)})
+    if not isinstance(values, dict):
+        raise TypeError("the Bayesian models are not a mapping")
+    absent = result.results["absent"]
+    result.results.update(values)
+    result.results["absent"] = [*(absent if isinstance(absent, list) else []), *_by_reason(reasons)]
+
+
 def signed(
     result: BatteryResult,
     source: Path,
@@ -302,6 +319,8 @@ def signed(
         "verified": verified,
     }
     seeds = {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED, "permutation": PERMUTATION_SEED}
+    if "bayes" in read:
+        seeds["bayes"] = BAYES_SEED
     made = provenance(source, quiz, mode, settings, seeds)
     result.results["provenance"], _ = plain(made.row())
     return made

@@ -46,6 +46,8 @@ _PATH = click.Path(path_type=Path)
 @click.option("--alpha", type=click.FloatRange(0, 0.5, min_open=True, max_open=True),
               default=ALPHA, show_default=True,
               help="Tests are judged at it, and intervals are made for it.")  # fmt: skip
+@click.option("--bayes", is_flag=True,
+              help="Bayesian mixed models too (minutes; needs the extra bayes).")  # fmt: skip
 @click.option("--verify/--no-verify", "check", default=True, show_default=True,
               help="Play every mission again first; it must come out as recorded.")  # fmt: skip
 def command(
@@ -58,6 +60,7 @@ def command(
     quiz: Path | None,
     mode: StudyMode | None,
     alpha: float,
+    bayes: bool,
     check: bool,
 ) -> int:
     """Analyse SOURCE: write all numbers to OUT.json, or a report into DIR.
@@ -107,6 +110,7 @@ def command(
             tick=_tell,
             loaded=loaded,
             alpha=alpha,
+            bayes=bayes,
         )
         if out is not None:
             out.write_text(result.to_json(), encoding="utf-8")

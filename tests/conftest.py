@@ -16,6 +16,7 @@ MISSING = {
     "no font has the signs of the map": "the font DejaVu Sans Mono",
     "R is not installed": "R",
     "the extra `cluster` is not installed": "the extra cluster",
+    "the extra `bayes` is not installed": "the extra bayes",
 }
 """The reasons for which a test may be skipped, and what is missing then."""
 

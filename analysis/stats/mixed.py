@@ -263,6 +263,19 @@ def _combined_df(dfs: Floats, q: int) -> float:
     return 2 * expected / (expected - q)
 
 
+def answered(study: StudyData, outcome: str) -> pd.DataFrame:
+    """The rounds with an answer of people with a group, with their group and static level.
+
+    Raises Refusal where there are no knowledge groups or no answers.
+    """
+    study.need_groups()
+    people = study.participants[["knowledge", "complexity"]]
+    rows = study.rounds.join(people, on="participant").dropna(subset=[outcome, "knowledge"])
+    if rows.empty:
+        raise Refusal(f"nobody has an answer for {outcome}")
+    return rows
+
+
 def mixed_model(study: StudyData, outcome: str) -> Row:
     """Fixed effects, variances and Type III tests of one outcome, on every answered round.
 
@@ -270,11 +283,7 @@ def mixed_model(study: StudyData, outcome: str) -> Row:
     then those of the model with one mean a filled cell. Raises Refusal where there are no knowledge
     groups or the model cannot be fitted.
     """
-    study.need_groups()
-    people = study.participants[["knowledge", "complexity"]]
-    rows = study.rounds.join(people, on="participant").dropna(subset=[outcome, "knowledge"])
-    if rows.empty:
-        raise Refusal(f"nobody has an answer for {outcome}")
+    rows = answered(study, outcome)
     design = sum_coded(rows, study.crossed.levels)
     filled, cell = np.unique(design.matrix, axis=0, return_inverse=True)
     complete = len(filled) == design.matrix.shape[1]
