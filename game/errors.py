@@ -7,6 +7,8 @@ from difflib import get_close_matches
 from errno import EACCES, EDQUOT, EFBIG, ENOSPC, EPERM
 from pathlib import Path
 
+STATUS_TROUBLE = 2
+"""The exit status when the user can fix what is wrong."""
 STATUS_DEFECT = 1
 """The exit status when something of ours failed that the user cannot fix."""
 _PACKAGE = Path(__file__).resolve().parent

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 import msgspec
 
-from game.errors import AnaError
+from game.errors import STATUS_TROUBLE, AnaError
 from game.journal.records import STUDY_MODES, StudyMode
 from game.lazy import LazyGroup
 
@@ -33,7 +33,6 @@ _ANY_FOLDER = click.argument("folder", metavar="DIR", type=click.Path(path_type=
 """Where a participant is at the terminal: what fails, this check included, is shown on a page."""
 _PARTICIPANT = click.argument("participant", metavar="ID")
 _PILOT = click.option("--pilot", is_flag=True, help="Try the study without taking a place in it.")
-STATUS_TROUBLE = 2
 STATUS_WRONG = 1
 _UNBLINDED = (
     "The study is still open, and this shows who was allocated what: the ledger now records that "

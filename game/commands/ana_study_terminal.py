@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from game.commands.ana_study import STATUS_TROUBLE
-from game.errors import STATUS_DEFECT, AnaError
+from game.errors import STATUS_DEFECT, STATUS_TROUBLE, AnaError
 
 if TYPE_CHECKING:
     from game.study.texts import Login, Texts

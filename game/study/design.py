@@ -24,6 +24,21 @@ BLOCK = 2 * HALF_BLOCK
 """The design cells of the paper's design."""
 
 
+ORDER_CODES = ("SA", "AS")
+"""In names of design cells: the static instructor first, or the adaptive one."""
+CODES_MEAN = (
+    "1, 3, m3 ...: the first, second, third memorise time; SA or AS: static or adaptive first; "
+    "C1 to C3: the static level; b0, b1 ...: the first building"
+)
+"""How to read the name of a design cell."""
+
+
+def memorise_code(which: int) -> str:
+    """How names of design cells begin with this memorise time, from 0: as the paper's minutes for
+    the first two, whatever their length."""
+    return {0: "1", 1: "3"}.get(which, f"m{which + 1}")
+
+
 class DesignCell(msgspec.Struct, frozen=True, order=True, omit_defaults=True):
     """A combination of conditions that a participant can be given.
 
@@ -53,8 +68,7 @@ class DesignCell(msgspec.Struct, frozen=True, order=True, omit_defaults=True):
     def code(self) -> str:
         """A short name: memorise time (1 the first, 3 the second), order, level and first building,
         as `1-SA-C2-b0`."""
-        memorise = {0: "1", 1: "3"}.get(self.memorise, f"m{self.memorise + 1}")
-        order = "AS" if self.adaptive_first else "SA"
+        memorise, order = memorise_code(self.memorise), ORDER_CODES[self.adaptive_first]
         return f"{memorise}-{order}-{self.static_level.name}-b{self.first_building}"
 
 

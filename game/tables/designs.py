@@ -9,6 +9,7 @@ from game.forms.form import Forms
 from game.tables.asked import outcomes_of
 
 PAPER_LEVELS = ("C1", "C2", "C3")
+KNOWLEDGE_GROUPS = 3
 LABELLED_LATE = (
     "rooms are labelled after the mission, so the scores that form the knowledge groups also hold "
     "what the mission taught"
@@ -22,10 +23,13 @@ def labelled_late(round_phases: Sequence[str]) -> bool:
 
 
 class PaperTest(NamedTuple):
-    """A test of the paper. `lacking` is what a design does not have for it; empty if nothing."""
+    """A test of the paper. `lacking` is what a design does not have for it; empty if nothing.
+    `cells` is how many cells of knowledge group and static level people must fill for it; 0 where
+    there are none."""
 
     name: str
     lacking: tuple[str, ...]
+    cells: int = 0
 
     @property
     def possible(self) -> bool:
@@ -71,12 +75,13 @@ def supported(
         yield PaperTest("the factor complexity", tuple(no_levels))
     crossed = "knowledge x adaptivity" if no_levels else "knowledge x complexity x adaptivity"
     lacking = (*one_round, *no_groups)
-    yield PaperTest(f"{crossed}, mixed ANOVA and post-hoc tests{fewer}", lacking)
-    yield PaperTest("the same for mental states", (*lacking, *no_states))
+    cells = KNOWLEDGE_GROUPS * max(1, 0 if no_levels else len(levels))
+    yield PaperTest(f"{crossed}, mixed ANOVA and post-hoc tests{fewer}", lacking, cells)
+    yield PaperTest("the same for mental states", (*lacking, *no_states), cells)
     yield PaperTest("one instructor against the other, paired", tuple(one_round))
     yield PaperTest("Cronbach's alpha of the four preference items", tuple(no_sum))
     yield PaperTest(
         "the preferred instructor, exact binomial test",
         (*one_round, *([] if preference else ["the phase preference is left out"])),
     )
-    yield PaperTest("alignment of level and knowledge", (*no_groups, *no_levels))
+    yield PaperTest("alignment of level and knowledge", (*no_groups, *no_levels), cells)

@@ -232,6 +232,23 @@ def test_the_command_shows_cells_counts_power_and_tests(
         assert words in told, told
 
 
+def test_the_command_says_what_cells_are_called_and_when_people_are_too_few(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = with_settings(tmp_path / "study", memorise_seconds="[20]", places="12")
+    assert main(["study", "design", str(study.folder)]) == 0
+    told = capsys.readouterr().out
+    first = study.settings.buildings[0]
+    assert f"1: 20 s to memorise, SA: static first, AS: ana first, b0: {first} first" in told
+    assert told.count("but too few people: 12 for 9 cells") == 3
+    assert "paired\n" in told
+    (study.folder / "study.toml").write_text(
+        (study.folder / "study.toml").read_text().replace("places = 12", "places = 18")
+    )
+    assert main(["study", "design", str(study.folder)]) == 0
+    assert "too few" not in capsys.readouterr().out
+
+
 @given(st.floats(0.05, 2), st.integers(4, 500))
 def test_power_rises_with_effect_and_people(d: float, n: int) -> None:
     assert power_of(d, n) <= power_of(d * 1.5, n) + 1e-12

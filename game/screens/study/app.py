@@ -13,7 +13,7 @@ from textual import events, work
 from textual.geometry import Size
 from textual.screen import Screen
 
-from game.errors import AnaError, where
+from game.errors import STATUS_TROUBLE, AnaError, where
 from game.journal.records import Covered
 from game.screens.play.mission_screen import Failed, Finished
 from game.screens.study.base import Frame, StudyScreen
@@ -31,8 +31,6 @@ from game.study.lock import SessionBusy, SessionLock, take_over
 from game.study.protocol.conduct import conduct
 from game.study.protocol.study_session import HasWithdrawn, StudySession, open_session, see_place
 from game.study.texts import Page, filled
-
-STATUS_TROUBLE = 2
 
 
 class StudyApp(Program, inherit_bindings=False):

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from game.forms.form import Forms
-from game.study.design import Balance, balances
+from game.study.design import ORDER_CODES, Balance, balances, memorise_code
 from game.study.power import ALPHA, EFFECTS, POWER, corrected, power_of, smallest_effect
 from game.study.study_settings import StudySettings
 from game.tables.asked import outcomes_of
-from game.tables.designs import LABELLED_LATE, labelled_late, supported
+from game.tables.designs import LABELLED_LATE, PaperTest, labelled_late, supported
 
+LEAST_IN_CELL = 2
+"""Fewer people in a cell of the analysis have no variance."""
 MOST_CELLS = 48
 """So many design cells are listed at most."""
 
@@ -28,6 +30,7 @@ def design_lines(settings: StudySettings, forms: Forms) -> Iterator[str]:
     found = list(balances(design, settings.seed, places))
     for balance in found:
         yield from _balance_lines(settings, balance)
+    yield f"      ({_codes(settings)})"
     if places % design.block:
         yield (
             f"  Every design cell comes equally often with a multiple of {design.block} places; "
@@ -46,9 +49,19 @@ def design_lines(settings: StudySettings, forms: Forms) -> Iterator[str]:
         preference="preference" in settings.phases,
         forms=forms,
     ):
-        yield f"  {'yes' if test.possible else 'no '}  {test.name}{test.told}"
+        yield f"  {'yes' if test.possible else 'no '}  {test.name}{test.told}{_few(test, places)}"
     if labelled_late(settings.round_phases):
         yield f"  note: {LABELLED_LATE}"
+
+
+def _few(test: PaperTest, places: int) -> str:
+    """What to say where the places cannot put two people into each cell of a test."""
+    if not test.possible or places >= LEAST_IN_CELL * test.cells:
+        return ""
+    return (
+        f"; but too few people: {places} for {test.cells} cells, each of which needs "
+        f"{LEAST_IN_CELL} or more"
+    )
 
 
 def _led(settings: StudySettings, which: int, name: str) -> str:
@@ -75,6 +88,19 @@ def _balance_lines(settings: StudySettings, balance: Balance) -> Iterator[str]:
     told = ", ".join(f"{_value(settings, balance.factor, it)} {n}" for it, n in counts.items())
     even = "" if balance.even else "  (not even)"
     yield f"  {balance.factor:<16} {told}{even}"
+
+
+def _codes(settings: StudySettings) -> str:
+    """What the parts of a design cell's name mean in this study."""
+    design, pair = settings.design, settings.instructors or ("static", settings.coach)
+    times = (
+        f"{memorise_code(which)}: {settings.memorise_seconds[which]} s to memorise"
+        for which in range(design.memorise)
+        if "memorise" in settings.round_phases
+    )
+    orders = (f"{code}: {name} first" for code, name in zip(ORDER_CODES, pair, strict=True))
+    buildings = (f"b{place}: {name} first" for place, name in enumerate(settings.buildings))
+    return ", ".join((*times, *orders, *buildings))
 
 
 def _value(settings: StudySettings, factor: str, value: str) -> str:

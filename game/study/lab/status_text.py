@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from game.journal.records import STUDY_MODES
+from game.study.design import CODES_MEAN
 from game.study.lab.attendance import SessionStatus
 from game.study.lab.study_status import CellCount, StudyStatus, Totals
 
@@ -80,6 +81,7 @@ def page(status: StudyStatus, cells: Sequence[CellCount] = ()) -> Iterator[str]:
     if cells:
         rules = list(cells[0].excluded)
         yield ""
+        yield f"Design cells ({CODES_MEAN}):"
         yield from _aligned(
             [
                 ("design cell", "allocated", "finished", *(f"excluded: {name}" for name in rules)),
