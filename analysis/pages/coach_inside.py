@@ -52,7 +52,7 @@ def evaluations(recorded: Recorded, study: StudyData) -> pd.DataFrame:
     missing where none followed. `no_misstep`: whether no misstep followed within `AHEAD_MS`.
     Raises Refusal where there are none.
     """
-    table = with_groups(recorded.frame("posteriors"), study)
+    table = with_groups(recorded.of_missions("posteriors"), study)
     table = table[table["verdict"] != "none"].sort_values("at_ms", ignore_index=True)
     if table.empty:
         raise Refusal("no evaluation of the coach carries evidence")

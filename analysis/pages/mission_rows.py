@@ -15,13 +15,11 @@ KEPT = (
 
 
 def missions(recorded: Recorded, study: StudyData) -> pd.DataFrame:
-    """The played missions of the people in `study`; columns `KEPT` and `knowledge`.
+    """The missions with a result of the people in `study`; columns `KEPT` and `knowledge`.
 
     Raises Refusal where the study has no knowledge groups.
     """
-    return with_groups(recorded.frame("rounds"), study)[[*KEPT, "knowledge"]].dropna(
-        subset=["victims"]
-    )
+    return with_groups(recorded.of_missions("rounds"), study)[[*KEPT, "knowledge"]]
 
 
 def with_groups(frame: pd.DataFrame, study: StudyData) -> pd.DataFrame:

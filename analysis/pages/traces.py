@@ -25,7 +25,7 @@ SECONDS = 1000.0
 
 def adaptive_levels(recorded: Recorded, study: StudyData) -> pd.DataFrame:
     """Every stretch at one level of the adaptive missions, with knowledge groups."""
-    levels = with_groups(recorded.frame("levels"), study)
+    levels = with_groups(recorded.of_missions("levels"), study)
     return levels[levels["adaptivity"] == "adaptive"].reset_index(drop=True)
 
 

@@ -43,7 +43,7 @@ def judged_missions(recorded: Recorded, study: StudyData) -> list[JudgedMission]
     Raises Refusal without adaptive missions, or for a preset whose rule needs more than
     comprehension.
     """
-    rounds = with_groups(recorded.frame("rounds"), study)
+    rounds = with_groups(recorded.of_missions("rounds"), study)
     played = rounds[rounds["preset"].notna()]
     if played.empty:
         raise Refusal("no adaptive mission was played")

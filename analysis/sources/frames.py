@@ -140,17 +140,32 @@ def make_study(
         adaptivity=pd.Categorical(rounds["adaptivity"], ADAPTIVITY, ordered=True),
     ).sort_values(["participant", "adaptivity"], ignore_index=True)
     ordered["adaptivity"] = ordered["adaptivity"].astype(str)
-    study = StudyData(
+    return StudyData(
         participants.sort_index(), ordered, label, simulated, asked=asked, crossed=crossed
     )
-    counts = ordered["participant"].value_counts()
-    single = sorted(str(who) for who in counts.index[counts < len(ADAPTIVITY)])
-    if single:
-        study = study.noted(
-            f"only one round: {', '.join(single)}; kept by the mixed model alone, left out "
-            "wherever both rounds are needed"
-        )
-    return study
+
+
+def missing_notes(study: StudyData) -> list[str]:
+    """Who lacks a round of which outcomes, in a sentence for outcomes that the same people lack."""
+    lacking: dict[tuple[tuple[str, ...], tuple[str, ...]], list[str]] = {}
+    for outcome in study.outcomes:
+        if not study.has(outcome):
+            continue
+        known = study.rounds.dropna(subset=[outcome])["participant"].value_counts()
+        rounds = known.reindex(study.participants.index, fill_value=0)
+        none, one = (tuple(map(str, rounds.index[rounds == number])) for number in (0, 1))
+        lacking.setdefault((none, one if study.crossed.rounds > 1 else ()), []).append(outcome)
+    notes = []
+    for (none, one), outcomes in lacking.items():
+        told = [f"no round of {', '.join(none)}"] if none else []
+        if one:
+            told.append(
+                f"one round only of {', '.join(one)}, kept by the mixed model and left out "
+                "wherever both rounds are needed"
+            )
+        if told:
+            notes.append(f"{', '.join(outcomes)}: {'; '.join(told)}")
+    return notes
 
 
 def _check_levels(

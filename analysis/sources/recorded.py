@@ -37,6 +37,7 @@ PERSON = (
     "preferred_instructor",
 )
 ROUND = ("participant", "adaptivity", "building", "victims")
+MS_PER_SECOND = 1000
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,18 @@ class Recorded:
             ]
             known = every[every["participant"].isin(people.index)]
             study = replace(study, every_round=known[["round", *columns]].reset_index(drop=True))
-        return study.noted(*self.notes, *more, *_unfinished(self.frame("participants")))
+        return study.noted(
+            *self.notes, *more, *_unfinished(self.frame("participants")), *_cut_short(every)
+        )
+
+    def of_missions(self, name: str) -> pd.DataFrame:
+        """The rows of the frame called `name`, which has a participant and a round, that belong to
+        missions with a result."""
+        frame, rounds = self.frame(name), self.frame("rounds")
+        keys = ["participant", "round"]
+        with_result = pd.MultiIndex.from_frame(rounds.loc[rounds["victims"].notna(), keys])
+        inside = pd.MultiIndex.from_frame(frame[keys]).isin(with_result)
+        return frame[inside].reset_index(drop=True)
 
 
 def recorded(
@@ -160,3 +172,22 @@ def _unfinished(people: pd.DataFrame) -> list[str]:
     begun = people["complexity"].notna() & (people["session_ending"] != "finished")
     names = people.loc[begun, "participant"]
     return [f"randomised and not finished: {', '.join(names)}"] if len(names) else []
+
+
+def _cut_short(rounds: pd.DataFrame) -> list[str]:
+    """Missions without a result because they are not over, and those that count as they stand."""
+    told = {
+        "unfinished": "missions that are not over, and so have no result yet",
+        "interrupted": "missions that were cut off and count as they stand",
+    }
+    notes = []
+    for ending, words in told.items():
+        found = rounds[rounds["mission_ending"] == ending].sort_values(["participant", "round"])
+        keys = ["participant", "round", "mission_exposure_ms"]
+        names = [
+            f"{who} (round {number}, {int(ms / MS_PER_SECOND)} s played)"
+            for who, number, ms in found[keys].itertuples(index=False)
+        ]
+        if names:
+            notes.append(f"{words}: {', '.join(names)}")
+    return notes

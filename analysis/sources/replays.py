@@ -84,7 +84,7 @@ def _building(building: Any) -> dict[str, Plain]:
 
 def _mission(tables: Tables, number: int, building: Any) -> dict[str, Plain] | None:
     row = next((row for row in tables.rounds if row.round == number), None)
-    if row is None or row.victims is None:
+    if row is None or not row.counts:
         return None
     every: Mapping[str, Iterable[Any]] = {name: tables.table(name) for name in _PARTS}
     own = {name: [one for one in rows if one.round == number] for name, rows in every.items()}

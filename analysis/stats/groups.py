@@ -4,7 +4,7 @@ import pandas as pd
 
 from analysis.sources.absent import Absent, Refusal, attempt
 from analysis.sources.factors import KNOWLEDGE
-from analysis.sources.frames import StudyData
+from analysis.sources.frames import StudyData, missing_notes
 from analysis.stats.clustering import Clustering, knowledge_groups
 from analysis.stats.power import EVEN
 
@@ -21,8 +21,21 @@ def grouped(study: StudyData) -> tuple[StudyData, Clustering | Absent]:
     """The study with knowledge groups, and the clustering of its scores.
 
     Groups that the source states are kept, and a note names the people whom the scores would place
-    elsewhere; a source that states none gets the groups of its scores.
+    elsewhere; a source that states none gets the groups of its scores. Notes name the people who
+    lack a round or a group.
     """
+    study, clustering = _formed(study.noted(*missing_notes(study)))
+    if study.has("knowledge"):
+        without = study.participants.index[study.participants["knowledge"].isna()]
+        if len(without):
+            study = study.noted(
+                "no knowledge group, for want of a quiz score before the static mission or of a "
+                f"stated group: {', '.join(map(str, without))}"
+            )
+    return study, clustering
+
+
+def _formed(study: StudyData) -> tuple[StudyData, Clustering | Absent]:
     clustering = attempt(clustering_of, study)
     if isinstance(clustering, Absent):
         return study, clustering

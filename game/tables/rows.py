@@ -143,7 +143,7 @@ class RoundRow(TableRow, frozen=True):
     """One row per participant and instructor: the analysis table.
 
     It repeats what analyses need to know of the participant. The outcomes of a void round (victims,
-    sliders, statements) are empty.
+    sliders, statements) are empty, and so are the victims of a mission that is not over.
     """
 
     participant: _Participant
@@ -155,7 +155,10 @@ class RoundRow(TableRow, frozen=True):
     memorise_minutes: _MemoriseMinutes
     memorise_ms: _MemoriseMs
     building: _Building
-    victims: Annotated[int | None, col("Victims rescued in the mission.")]
+    victims: Annotated[
+        int | None,
+        col("Victims rescued in the mission; empty while it is unfinished, and in a void round."),
+    ]
     reds_rescued: Annotated[int | None, col("Red victims rescued in the mission.")]
     blues_rescued: Annotated[int | None, col("Blue victims rescued in the mission.")]
     reds_expired: Annotated[int | None, col("Red victims not treated in time.")]
@@ -207,12 +210,22 @@ class RoundRow(TableRow, frozen=True):
     ]
     interrupted: Annotated[bool, col("Whether a timed phase of the round was interrupted.")]
     void: Annotated[bool, col("Whether the round is void under the study's settings.")]
+    mission_ending: Annotated[
+        StepEnding | None,
+        col("How the mission ended, so far; empty where it was not begun."),
+    ]
     memorise_exposure_ms: Annotated[int | None, col("How long the map was on the screen.", "ms")]
     label_exposure_ms: Annotated[int | None, col("How long the labelling was on the screen.", "ms")]
     mission_exposure_ms: Annotated[int | None, col("How long the mission was played.", "ms")]
     mission_covered_ms: Annotated[
         int | None, col("How long the window was too small to show the mission.", "ms")
     ]
+
+    @property
+    def counts(self) -> bool:
+        """Whether the round has a result: its mission is over and the round is not void. A mission
+        that was cut off is over when the participant has come back and it was ended."""
+        return not self.void and self.mission_ending not in (None, "unfinished")
 
 
 class ItemRow(TableRow, frozen=True):

@@ -46,6 +46,10 @@ MENTAL_STATES = ("engagement", "confidence", "frustration", "confusion")
 LIKERT_ITEMS = ("pref1", "pref2", "pref3", "pref4")
 TIMED: tuple[ProtocolPhase, ...] = ("memorise", "label", "mission")
 MS_PER_MINUTE = 60_000
+NO_RESULT: dict[str, None] = dict.fromkeys(
+    ("victims", "reds_rescued", "blues_rescued", "reds_expired")
+)
+"""What the mission of a round that does not count leaves empty."""
 
 
 @dataclass(frozen=True)
@@ -271,10 +275,10 @@ class _Session:
         quiz = history.quizzes.get(round_)
         kind = cast("type[RoundRow]", self._types["rounds"])
         empty = dict.fromkeys(kind.__struct_fields__)
-        given = self.answers(round_, void) | self.played(round_, void)
-        return msgspec.convert(
+        row = msgspec.convert(
             empty
-            | given
+            | self.answers(round_, void)
+            | self.played(round_)
             | {
                 "participant": self.participant,
                 "simulated": self.started.simulated,
@@ -296,9 +300,13 @@ class _Session:
                 "void": void,
             }
             | {f"{phase}_exposure_ms": _exposure(span) for phase, span in timed.items()}
-            | {"mission_covered_ms": _covered(timed["mission"])},
+            | {
+                "mission_covered_ms": _covered(timed["mission"]),
+                "mission_ending": timed["mission"].ending if timed["mission"] else None,
+            },
             kind,
         )
+        return row if row.counts else msgspec.structs.replace(row, **NO_RESULT)
 
     def answers(self, round_: int, void: bool) -> dict[str, float | int | bool | None]:
         """What was answered after the mission, and what is computed from it."""
@@ -307,7 +315,7 @@ class _Session:
         columns = (it for it in self._columns if it.table == "rounds")
         return {it.name: it.value(self.history, round_) for it in columns}
 
-    def played(self, round_: int, void: bool) -> dict[str, float | int | str | None]:
+    def played(self, round_: int) -> dict[str, float | int | str | None]:
         """The columns that the mission of a round adds to its row."""
         mission = self.missions.get(round_)
         if mission is None:
@@ -318,14 +326,11 @@ class _Session:
         kinds, wants = self.disobeyed([mission]), [row.want for row in mission.asked()]
         clear = [row.comprehension for row in posteriors if row.verdict != "none"]
         saved = [row.severity for row in victims if row.fate == "rescued"]
-        outcome: dict[str, int] = {
+        return {
             "victims": len(saved),
             "reds_rescued": saved.count(Severity.RED),
             "blues_rescued": saved.count(Severity.BLUE),
             "reds_expired": sum(row.fate == "expired" for row in victims),
-        }
-        return {
-            **({} if void else outcome),
             "disobeyed_in_round": len(kinds),
             "repeat_misstep_in_round": kinds.count("repeat_misstep"),
             "other_victim_in_round": kinds.count("other_victim"),

@@ -34,6 +34,7 @@ from game.tables.columns import cell, cells, col, columns
 from game.tables.session_tables import (
     LIKERT_ITEMS,
     MENTAL_STATES,
+    NO_RESULT,
     ROW_TYPES,
     Tables,
     combined,
@@ -181,10 +182,37 @@ def test_each_record_of_a_mission_has_its_row() -> None:
 def test_a_void_round_keeps_its_conditions_and_loses_its_outcomes() -> None:
     (row,) = first_round(mission_ending="void").tables.rounds
     assert row.void
+    assert not row.counts
     assert row.interrupted
     outcomes = ("victims", "reds_rescued", "preference", *MENTAL_STATES, *LIKERT_ITEMS)
     assert [getattr(row, name) for name in outcomes] == [None] * len(outcomes)
     assert (row.quiz, row.complexity, row.building) == (0.5, "C1", "hut")
+
+
+def test_a_mission_that_is_not_over_has_no_result() -> None:
+    written = first_round()
+    written.journal.enter("memorise", 2)
+    written.write(PhaseStarted(60_000), PhaseEnded("completed", 60_000))
+    written.journal.enter("mission", 2)
+    written.write(PhaseStarted(20_000))
+    written.mission()
+    done, going_on = written.tables.rounds
+    assert (done.mission_ending, done.counts) == ("completed", True)
+    assert (going_on.mission_ending, going_on.counts) == ("unfinished", False)
+    assert [getattr(going_on, name) for name in NO_RESULT] == [None] * len(NO_RESULT)
+    assert going_on.instructions and going_on.moves  # what happened so far is kept
+    written.write(PhaseEnded("interrupted", 9_000))
+    _, ended = written.tables.rounds
+    assert (ended.mission_ending, ended.interrupted, ended.counts) == ("interrupted", True, True)
+    assert ended.victims == 2
+
+
+def test_a_round_whose_mission_was_not_begun_has_no_result() -> None:
+    written = Written()
+    written.journal.enter("memorise", 1)
+    written.write(ALLOCATED, PhaseStarted(60_000))
+    (row,) = written.tables.rounds
+    assert (row.mission_ending, row.counts) == (None, False)
 
 
 def test_a_statement_left_out_leaves_no_sum() -> None:

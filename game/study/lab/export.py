@@ -52,9 +52,10 @@ FREE_TEXT = "freetext"
 
 @dataclass(frozen=True)
 class Exported:
-    """What was written: the number of sessions and rounds of each mode. `unblinded` means that the
-    study is open and the ledger now records that its allocation was looked at; `dropped` are modes
-    that an earlier export in the same place had and this one has not."""
+    """What was written: the number of sessions of each mode, and of rounds with a result.
+    `unblinded` means that the study is open and the ledger now records that its allocation was
+    looked at; `dropped` are modes that an earlier export in the same place had and this one has
+    not."""
 
     sessions: dict[StudyMode, int]
     rounds: dict[StudyMode, int]
@@ -106,7 +107,7 @@ def export_study(
     _replace(out, files)
     return Exported(
         sessions={mode: len(tables.participants) for mode, tables in found.items()},
-        rounds={mode: len(tables.rounds) for mode, tables in found.items()},
+        rounds={mode: sum(row.counts for row in tables.rounds) for mode, tables in found.items()},
         unblinded=unblinded,
         dropped=dropped,
     )

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from analysis.pages.flow import flow_rows
 from analysis.pages.what_if import judged_missions, shares, stretches
 from analysis.sources.absent import SourceError
+from analysis.sources.frames import both_rounds
 from analysis.sources.recorded import ANALYSED, Recorded
 from analysis.sources.samples import left_by
 from analysis.sources.source import load, load_recorded
@@ -224,3 +225,21 @@ def test_prior_masses_compose(comprehension: float, one: float, two: float, thre
 def test_groups_of_a_study_that_is_too_small_are_refused(recorded: Recorded) -> None:
     study, clustering = grouped(left_by(recorded.study(), None).study)
     assert study.has("knowledge") or "distinct" in str(clustering)
+
+
+def test_a_mission_that_is_not_over_is_no_result_anywhere(copy: Path) -> None:
+    lines = journal(copy).read_bytes().splitlines(keepends=True)
+    kinds = [(it["phase"], it["round"], it["type"]) for it in map(json.loads, lines)]
+    end = kinds.index(("mission", 2, "phase_ended"))
+    journal(copy).write_bytes(b"".join(lines[:end]))
+    recorded = read_study_folder(copy, check=False)
+    study, _ = grouped(recorded.study())
+    own = study.rounds[study.rounds["participant"] == "S0001"]
+    assert own["victims"].notna().sum() == 1
+    assert "S0001" not in both_rounds(study, "victims").index
+    for name in ("levels", "posteriors", "instructions", "victims"):
+        kept = recorded.of_missions(name)
+        assert set(kept.loc[kept["participant"] == "S0001", "round"]) == {1}, name
+    notes = "\n".join(study.notes)
+    assert "missions that are not over, and so have no result yet: S0001 (round 2, " in notes
+    assert "one round only of S0001" in notes

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from analysis.sources.absent import SourceError
-from analysis.sources.frames import StudyData, both_rounds, paired
+from analysis.sources.frames import StudyData, both_rounds, missing_notes, paired
 from analysis.sources.longcsv import read_long_csv
 
 ReadTable = Callable[..., StudyData]
@@ -133,7 +133,11 @@ def test_a_person_has_one_level(read_table: ReadTable, table: pd.DataFrame) -> N
 
 def test_one_round_is_kept_and_told(read_table: ReadTable, table: pd.DataFrame) -> None:
     study = read_table(table.drop(index=1))
-    assert any("only one round: P001" in note for note in study.notes)
+    every = "victims, engagement, confidence, frustration, confusion, preference"
+    assert missing_notes(study) == [
+        f"{every}: one round only of P001, kept by the mixed model and left out wherever both "
+        "rounds are needed"
+    ]
     assert "P001" not in both_rounds(study, "victims").index
     assert len(study.rounds) == len(table) - 1
 
@@ -167,3 +171,15 @@ def test_quiz_scores(read_table: ReadTable, table: pd.DataFrame) -> None:
     study = read_table(table, quiz=scores)
     assert "no quiz score for P004" in study.notes
     assert study.participants.loc["P002", "quiz_static"] == 1.0
+
+
+def test_a_note_names_who_lacks_which_outcomes(read_table: ReadTable, table: pd.DataFrame) -> None:
+    table = table.astype(dict.fromkeys(("engagement", "confusion"), float))
+    table.loc[[0, 1, 2], ["engagement", "confusion"]] = np.nan
+    study = read_table(table)
+    assert missing_notes(study) == [
+        "engagement, confusion: no round of P001; one round only of P002, kept by the mixed model "
+        "and left out wherever both rounds are needed"
+    ]
+    pair = paired(study, "engagement")
+    assert pair.n_dropped == 2
