@@ -141,23 +141,27 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
 def check_study(folder: Path, pictures: Path | None) -> int:
     """Open every page of the study DIR at its size, and try the folder, the disk and the settings.
 
-    Exit status 2 where something would go wrong.
+    Exit status 2 where something would go wrong. Notes name times in the texts that study.toml
+    contradicts.
     """
     from game.screens.study.pictures import write_pictures
     from game.screens.study.rehearsal import found_wrong
     from game.study.folder import open_study
+    from game.study.lab.stated_times import contradicted
 
     study = open_study(folder)
     wrong, pages = found_wrong(study, pictures=pictures is not None)
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
-    for note in study.notes:
+    doubts = list(contradicted(study))
+    for note in (*study.notes, *doubts):
         click.echo(f"note: {note}")
     for one in wrong:
         _red(one)
     size = study.settings.screen
     if not wrong:
-        click.echo(f"{folder}: {len(pages)} pages at {size.columns} x {size.rows}; all is well")
+        well = "nothing is wrong but for what the notes say" if doubts else "all is well"
+        click.echo(f"{folder}: {len(pages)} pages at {size.columns} x {size.rows}; {well}")
     return STATUS_TROUBLE if wrong else 0
 
 

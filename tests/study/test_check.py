@@ -17,6 +17,9 @@ from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
 from game.study.folder import Study, StudyError, new_study, open_study
 from game.study.lab.readiness import shortfalls
+from game.study.lab.stated_times import contradicted, stated
+from game.study.languages import languages
+from game.study.texts import shipped_texts
 
 
 @pytest.fixture(scope="module")
@@ -147,6 +150,50 @@ def test_a_primary_outcome_that_nothing_measures_is_told(folder: Path) -> None:
     assert len(told) == 2
     assert "Did you mean engagement?" in told[0]
     assert "forms.toml asks no such item" in told[1]
+
+
+@pytest.mark.parametrize("language", languages())
+def test_a_new_study_says_the_times_that_it_has(language: str, tmp_path: Path) -> None:
+    new_study(tmp_path / "study", seed=3, blocks=1, language=language)
+    assert list(contradicted(open_study(tmp_path / "study"))) == []
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "four-minute"), ("de", "vierminütigen")])
+def test_a_text_that_names_the_time_of_a_longer_mission_is_told(
+    language: str, said: str, tmp_path: Path
+) -> None:
+    new_study(tmp_path / "study", seed=3, blocks=1, language=language)
+    edit(
+        tmp_path / "study", "study.toml", "memorise_seconds = [60, 180]", "memorise_seconds = [20]"
+    )
+    edit(tmp_path / "study", "study.toml", "label_seconds = 240", "label_seconds = 30")
+    study = edit(tmp_path / "study", "study.toml", "duration_ms = 240000", "duration_ms = 20000")
+    mission, session = contradicted(study)
+    assert mission.startswith(
+        f'texts.toml, consent.body says "{said}", but label_seconds is 30 s; '
+    )
+    assert mission.endswith("duration_ms is 20 s: change the text or the setting")
+    assert '"25 minut' in session.lower()
+    assert "a session takes between 1 and 15 minutes" in session
+
+
+@pytest.mark.parametrize(
+    ("text", "ms"),
+    [
+        ("a 20-second mission", 20_000),
+        ("It takes about 1.5 minutes.", 90_000),
+        ("in one minute", 60_000),
+        ("about twenty-five minutes", 1_500_000),
+        ("thirty-five minutes", []),
+        ("2-3 minutes", 180_000),
+        ("Sie haben zwanzig Sekunden", []),
+        ("take the second door; someone minute", []),
+        ("{time} minutes", []),
+    ],
+)
+def test_times_are_found_in_a_text(text: str, ms: int | list[int]) -> None:
+    found = [it for _, it in stated(text, shipped_texts().units)]
+    assert found == ([ms] if isinstance(ms, int) else ms)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from game.forms.reading import FormsError, paper_forms, read_forms
 from game.study.study_settings import SettingsError, read_settings
 from game.study.texts import LATER_TEXTS, TextsError, read_texts, shipped_texts
 from game.tables.session_tables import LIKERT_ITEMS, MENTAL_STATES
+from game.world.settings import MissionSettings
 
 TEMPLATE = Path(__file__).parents[2] / "game" / "study" / "template"
 EARLIER = Path(__file__).parents[1] / "data" / "earlier_study"
@@ -67,6 +69,24 @@ def test_a_bad_setting_is_named_with_its_hint(
     study_toml.write_text(study_toml.read_text().replace(was, becomes))
     with pytest.raises(SettingsError, match=told):
         read_settings(study_toml)
+
+
+def test_the_guide_has_every_key_of_a_mission_and_what_it_is_if_not_given() -> None:
+    guide = (TEMPLATE.parents[2] / "docs" / "lab.md").read_text(encoding="utf-8")
+    table = guide[guide.index("These are the keys of `[mission]`") :].split("\n\n")[1]
+    listed: dict[str, str] = {}
+    for line in table.splitlines()[2:]:
+        names, _, value = (cell.strip() for cell in line.strip("|").split(" | "))
+        keys, values = (text.replace("`", "").split(", ") for text in (names, value))
+        listed |= dict(zip(keys, values * len(keys) if len(values) == 1 else values, strict=True))
+    rules = MissionSettings(show_score=False, allow_pause=False)
+    usual = {field.name: getattr(rules, field.name) for field in fields(rules)}
+    assert listed.keys() == usual.keys()
+    assert listed.pop("red_expiry_ms") == "half of the mission"
+    for name, value in listed.items():
+        given = usual[name]
+        shown = f"{given:g}" if isinstance(given, float) else str(given).lower()
+        assert value == shown, name
 
 
 def test_a_missing_file_says_how_to_make_one(tmp_path: Path) -> None:
