@@ -27,6 +27,13 @@ table.apa td, table.apa th { padding: .15em .7em .15em 0; vertical-align: top }
 div { overflow-x: auto; margin: 1.5em 0 } .note, figcaption { font-size: 85% }
 figure { margin: 1.5em 0 } img { max-width: 100% }
 .simulated { color: VERMILION; font-weight: bold; font-family: sans-serif }
+@media print {
+  body { max-width: none; margin: 0; padding: 0; font-size: 10pt }
+  @page { size: A4; margin: 18mm 16mm }
+  div { overflow: visible; break-inside: avoid }
+  table.apa { font-size: 7.5pt } thead { display: table-header-group }
+  tr, figure { break-inside: avoid } h2, p.title { break-after: avoid }
+}
 dt { font-weight: bold } dd { margin: 0 0 .4em 1.5em; overflow-wrap: anywhere }
 """
 
