@@ -161,7 +161,7 @@ def posterior_figure(table: pd.DataFrame, *, simulated: bool) -> Captioned:
         axes.set_yticks(np.linspace(0, 1, 6))
         axes.set_xlabel("P(g*|path) at an evaluation")
         axes.set_ylabel("share of evaluations at or below")
-        axes.legend(loc="upper left")
+        figure.legend(loc="outside upper right", ncols=3)
         return captioned(
             "coach_posterior",
             figure,

@@ -159,7 +159,7 @@ def comparison_figure(comparison: Comparison) -> Captioned:
                 _points(axes, comparison.cells, world, coach, number, len(shown))
         panels[-1].set_xlabel("rescued victims, minus the group's best static level")
         handles, names = panels[0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="upper right", ncols=min(4, len(shown)))
+        figure.legend(handles, names, loc="outside upper right", ncols=min(4, len(shown)))
         return captioned(
             "coaches",
             figure,
@@ -293,7 +293,7 @@ def level_shares_figure(comparison: Comparison, world: str, of: Sequence[str]) -
                 axes.bar(KNOWLEDGE, heights, 0.7, bottom, color=LEVEL_COLOURS[level], label=level)
                 bottom = bottom + heights
         panels[0].set_ylabel("share of the mission")
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="upper right", ncols=3)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=3)
         return captioned(
             "coaches-levels",
             figure,

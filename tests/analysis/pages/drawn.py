@@ -27,11 +27,33 @@ def faults(drawn: Captioned) -> list[str]:
     for axes in figure.axes:
         if axes.get_visible():
             found += _outside(axes, renderer)
+    found += _covered(figure, renderer)
     page = figure.get_tightbbox(renderer)
     size = figure.get_size_inches()
     if page.x0 < -0.02 or page.y0 < -0.02 or page.x1 > size[0] + 0.02 or page.y1 > size[1] + 0.02:
         found.append(f"something is off the page: {page} of {size}")
     return [f"{drawn.name}: {fault}" for fault in found]
+
+
+def _covered(figure: Figure, renderer: Any) -> list[str]:
+    """The panels that a legend of the figure lies over, and the words that one of a panel does."""
+    pairs: list[tuple[Any, Any, str]] = [
+        (box, axes, axes.get_title(loc="left"))
+        for box in figure.legends
+        for axes in figure.axes
+        if axes.get_visible()
+    ]
+    pairs += [
+        (box, text, text.get_text())
+        for axes in figure.axes
+        if (box := axes.get_legend())
+        for text in axes.texts
+    ]
+    return [
+        f"a legend covers {words!r}"
+        for box, artist, words in pairs
+        if box.get_window_extent(renderer).overlaps(artist.get_window_extent(renderer))
+    ]
 
 
 def _outside(axes: Axes, renderer: Any) -> list[str]:
