@@ -41,7 +41,7 @@ class Shown:
         return self.text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Opened:
     """A source as the notebooks use it. `randomised` is everybody, `study` the analysed sample
     with its knowledge groups."""
@@ -68,6 +68,10 @@ class Opened:
     ) -> Shown:
         """A table under its title, or the reason why it cannot be had."""
         return table(rows, title, digits, simulated=self.simulated)
+
+    def __repr__(self) -> str:
+        analysed, of = len(self.study.participants), len(self.randomised.participants)
+        return f"{self.study.label}: {analysed} people analysed of {of} randomised"
 
     def _repr_html_(self) -> str:
         words = (
