@@ -43,6 +43,7 @@ def recorded() -> Recorded:
         "posteriors": pd.DataFrame(evaluated),
         "victims": pd.DataFrame(victims),
         "instructions": pd.DataFrame(told),
+        "rounds": pd.DataFrame([{**mission, "victims": 1.0}, {**other, "victims": 1.0}]),
     }
     return Recorded(frames, "made up", simulated=True)
 
@@ -83,6 +84,7 @@ def test_nothing_to_evaluate_is_refused() -> None:
 def test_the_person_nearest_the_mean_stands_for_a_group() -> None:
     missions = published().assign(
         complexity="C1",
+        round=(published()["adaptivity"] == "adaptive") + 1,
         building="x",
         order="static_first",
         switches=1,
