@@ -93,6 +93,11 @@ def test_pilots_and_simulated_people_are_counted_and_are_no_problem(study: Study
     assert all(line.split()[-3] == "-" for line in told if line.startswith("S1 "))
     screen = ["".join(text for text, _ in row) for row in status_rows(now)]
     assert " Simulated sessions: started 2, cut off 2" in screen
+    narrow = [row[0] for row in status_rows(now, 60) if row]
+    assert {style for text, style in narrow if "S1" in text} == {"quiet"}
+    wrapped = narrow[: next(n for n, (text, _) in enumerate(narrow) if "participant" in text)]
+    assert max(len(text) for text, _ in wrapped) < 60
+    assert any("dropped out 0" in text for text, _ in wrapped)
 
 
 def test_a_session_whose_process_lives_takes_part(study: Study) -> None:

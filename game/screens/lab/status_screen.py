@@ -12,7 +12,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 
 from game.errors import AnaError
-from game.screens.widgets.canvas import BLANK, Canvas, Row
+from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.program import Program
 from game.screens.widgets.signals import lead_out
@@ -39,17 +39,18 @@ _STYLES = {
 }
 
 
-def status_rows(status: StudyStatus) -> list[Row]:
-    """The screen's lines: the study, its totals, a line a session, and what is wrong."""
-    rows: list[Row] = [
-        ((f" {study_line(status)}", "title"),),
-        ((f" Live sessions: {totals_line(status.totals)}", "quiet"),),
-        *(((f" {line}", "quiet"),) for line in other_lines(status.sessions)),
-        BLANK,
-    ]
+def status_rows(status: StudyStatus, columns: int = 120) -> list[Row]:
+    """The screen's lines: the study, its totals, a line a session, and what is wrong. All but the
+    sessions are wrapped to so many columns."""
+
+    def told(style: str, *lines: str) -> list[Row]:
+        return [((f" {part}", style),) for line in lines for part in wrapped(line, columns - 2)]
+
+    live = f"Live sessions: {totals_line(status.totals)}"
+    rows = told("title", study_line(status))
+    rows += [*told("quiet", live, *other_lines(status.sessions)), BLANK]
     if status.hindrances:
-        rows += [((f" {line}", "trouble"),) for line in (HINDRANCES, *status.hindrances)]
-        rows.append(BLANK)
+        rows += [*told("trouble", HINDRANCES, *status.hindrances), BLANK]
     if not status.sessions:
         rows.append(((" Nobody has started yet.", "quiet"),))
         return rows
@@ -62,9 +63,9 @@ def status_rows(status: StudyStatus) -> list[Row]:
     ]
     if status.problems:
         rows += [BLANK, ((" Look at:", "title"),)]
-        rows += [((f"  {problem}", "trouble"),) for problem in status.problems]
+        rows += told("trouble", *status.problems)
     if status.not_come:
-        rows += [BLANK, ((f" Not begun: {', '.join(status.not_come)}", "quiet"),)]
+        rows += [BLANK, *told("quiet", f"Not begun: {', '.join(status.not_come)}")]
     return rows
 
 
@@ -74,7 +75,9 @@ def _line(cells: tuple[str, ...], widths: list[int], style: str) -> tuple[str, s
 
 
 def _style(session: SessionStatus) -> str:
-    return "trouble" if session.problems else _STYLES[session.state]
+    if session.problems:
+        return "trouble"
+    return "quiet" if session.mode == "simulated" else _STYLES[session.state]
 
 
 class StatusTable(Canvas):
@@ -123,7 +126,7 @@ class StatusApp(Program, inherit_bindings=False):
 
     def _look(self) -> None:
         try:
-            rows = status_rows(self._reader.look())
+            rows = status_rows(self._reader.look(), max(40, self.size.width))
         except AnaError as error:
             self.failure = error
             self.exit(return_code=2)
