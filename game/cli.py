@@ -24,46 +24,70 @@ STATUS_BAD_INPUT = 2
 STATUS_INTERRUPTED = 130
 
 
+_PLAY, _STUDY, _MACHINE = "Play", "Study", "This computer"
+
+
 @click.group(
     cls=LazyGroup,
     commands=[
-        LazyCommand("play", "game.commands.ana_play:play", "Play a mission now."),
-        LazyCommand("serve", "game.commands.ana_serve:serve_play", "Play in a browser."),
-        LazyCommand("watch", "game.commands.ana_watch:watch", "Watch a simulated rescuer play."),
+        LazyCommand("play", "game.commands.ana_play:play", "Play a mission now.", _PLAY),
+        LazyCommand("serve", "game.commands.ana_serve:serve_play", "Play in a browser.", _PLAY),
+        LazyCommand(
+            "watch", "game.commands.ana_watch:watch", "Watch a simulated rescuer play.", _PLAY
+        ),
         LazyCommand(
             "replay",
             "game.commands.ana_play:replay_journal",
             "Replay a mission with the coach's reasoning.",
-        ),
-        LazyCommand(
-            "verify",
-            "game.commands.ana_verify:verify_command",
-            "Check that journals replay exactly.",
+            _PLAY,
         ),
         LazyCommand(
             "building",
             "game.commands.ana_building:building_group",
             "Check a building file, or show one.",
+            _PLAY,
         ),
         LazyCommand(
-            "study", "game.commands.ana_study:study_group", "Set up and run the experiment."
+            "study",
+            "game.commands.ana_study:study_group",
+            "Set up and run the experiment.",
+            _STUDY,
         ),
         LazyCommand(
-            "simulate", "game.commands.ana_simulate:simulate_command", "Simulate a whole study."
+            "simulate",
+            "game.commands.ana_simulate:simulate_command",
+            "Simulate a whole study.",
+            _STUDY,
         ),
         LazyCommand(
-            "compare", "analysis.compare:command", "Compare coaches on the same simulated people."
+            "analyse",
+            "analysis.command:command",
+            "Compute every statistic of a study.",
+            _STUDY,
         ),
-        LazyCommand("analyse", "analysis.command:command", "Compute every statistic of a study."),
+        LazyCommand(
+            "compare",
+            "analysis.compare:command",
+            "Compare coaches on the same simulated people.",
+            _STUDY,
+        ),
+        LazyCommand(
+            "verify",
+            "game.commands.ana_verify:verify_command",
+            "Check that journals replay exactly.",
+            _STUDY,
+        ),
         LazyCommand(
             "doctor",
             "game.commands.ana_doctor:doctor_command",
             "Check that this terminal can play.",
+            _MACHINE,
         ),
         LazyCommand(
             "completion",
             "game.commands.ana_completion:completion_command",
             "Print a shell's completion script.",
+            _MACHINE,
         ),
     ],
     invoke_without_command=True,
@@ -72,7 +96,10 @@ STATUS_INTERRUPTED = 130
 @click.version_option(__version__, prog_name="ana", message="%(prog)s %(version)s")
 @click.pass_context
 def ana(ctx: click.Context) -> int | None:
-    """A guided rescue mission with an adaptive coach, and a study built on it."""
+    """A guided rescue mission with a coach that adapts to you, and the experiment around it.
+
+    Without a command the game opens.
+    """
     if ctx.invoked_subcommand is not None:
         return None
     from game.screens.play.app import run_home

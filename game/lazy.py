@@ -16,12 +16,13 @@ class LazyCommand(click.Command):
     """A name and a summary; the command itself is imported only when it runs.
 
     `target` is `module:attribute`; the attribute is a `click.Command` whose function returns its
-    exit status (None means 0).
+    exit status (None means 0). `section` is the heading that it is listed under.
     """
 
-    def __init__(self, name: str, target: str, summary: str) -> None:
+    def __init__(self, name: str, target: str, summary: str, section: str = "Commands") -> None:
         super().__init__(name, short_help=summary)
         self.target = target
+        self.section = section
 
     def load(self) -> click.Command:
         """The command behind the name. Raises AnaError if a package it needs is missing."""
@@ -46,7 +47,8 @@ def _not_installed(error: ModuleNotFoundError, command: str | None) -> Exception
 
 
 class LazyGroup(click.Group):
-    """A group that imports only the subcommand it runs, and lists its subcommands in order.
+    """A group that imports only the subcommand it runs, and lists its subcommands in order, by
+    sections.
 
     A subcommand imports what not everybody has when it runs, so that its help can be read without.
     """
@@ -56,6 +58,17 @@ class LazyGroup(click.Group):
             return super().invoke(ctx)
         except ModuleNotFoundError as error:
             raise _not_installed(error, ctx.invoked_subcommand) from error
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        sections: dict[str, list[tuple[str, str]]] = {}
+        longest = max(map(len, self.commands))
+        for name, command in self.commands.items():
+            section = command.section if isinstance(command, LazyCommand) else "Commands"
+            row = f"{name:<{longest}}", command.get_short_help_str(formatter.width)
+            sections.setdefault(section, []).append(row)
+        for section, rows in sections.items():
+            with formatter.section(section):
+                formatter.write_dl(rows)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(self.commands)

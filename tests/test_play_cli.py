@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 
 from game.cli import main
 from game.coach.spec import parse_coach
-from game.commands.ana_play import assigned, only_journal, options_of
+from game.commands.ana_play import assigned, last_journal, only_journal, options_of
 from game.errors import AnaError
 from game.journal.folders import JOURNAL
 from game.session.playing import end_free_play, start_in_memory
@@ -152,3 +153,14 @@ class TestReplayOfAFolder:
     ) -> None:
         assert main(["replay", str(tmp_path)]) == 2
         assert "there is no journal in this folder" in capsys.readouterr().err
+
+
+def test_replay_alone_takes_the_last_mission(tmp_path: Path) -> None:
+    with pytest.raises(AnaError, match="no mission to replay yet"):
+        last_journal(tmp_path)
+    for number in (2, 1):
+        journal = tmp_path / f"mission-{number}" / "journal.jsonl"
+        journal.parent.mkdir()
+        journal.touch()
+        os.utime(journal, (number, number))
+    assert last_journal(tmp_path).parent.name == "mission-2"

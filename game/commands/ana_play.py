@@ -14,16 +14,17 @@ import click
 import msgspec
 
 from game.coach.presets import PRESETS
-from game.coach.spec import parse_coach
+from game.coach.spec import DEFAULT_PRESET, parse_coach
 from game.commands.offered import buildings, coaches, levels, offering, presets
 from game.commands.offered import settings as settings_offered
 from game.errors import AnaError, choose_from
 from game.journal.folders import JOURNAL, all_journals
 from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
+from game.screens.play.past_missions import newest_journals
 from game.session.yoking import yoke_of
 from game.world import load_building
-from game.world.library import GENERATED
+from game.world.library import GENERATED, shipped_buildings
 from game.world.settings import FREE_PLAY, RANGES, Controls, MissionSettings
 from game.world.variant import Difficulty, Variant, Victims, day_seed, varied, with_demands
 
@@ -41,51 +42,59 @@ def mission_options(command: _Command) -> _Command:
             "--building",
             shell_complete=offering(buildings, files=True),
             metavar="NAME|PATH",
-            help="A building that comes with ana, generated:SEED for one made from a seed, or the "
-            f"path of your own file.  [default: {DEFAULT_BUILDING}]",
+            help=f"{', '.join(shipped_buildings())}, {GENERATED}:SEED for one made from a seed, or "
+            f"the path of your own file.  [default: {DEFAULT_BUILDING}]",
         ),
         click.option(
             "--victims",
             type=click.Choice(get_args(Victims)),
-            help="Where the victims lie: as drawn, or where the seed puts them.  [default: drawn]",
+            help="Where the victims are: in their usual places, as drawn in the building's file, "
+            "or where the seed puts them.  [default: drawn]",
         ),
         click.option(
             "--difficulty",
             type=click.Choice(get_args(Difficulty)),
             default="standard",
             show_default=True,
-            help="How many people there are, how long the mission lasts, and how far you see.",
+            help="How many victims there are, how long the mission lasts (unless --minutes says "
+            "so), and how far you see.",
         ),
         click.option(
             "--today",
             is_flag=True,
-            help="The mission of the day, the same for everybody: an office made from the date, or "
-            "in --building, victims placed by it.",
+            help="The mission of the day, the same for everybody: today's office or, with "
+            "--building, that building with today's places for the victims.",
         ),
         click.option(
             "--coach",
             shell_complete=offering(coaches, files=True),
             default="ana",
             show_default=True,
-            help="ana and knowledge adapt their level, static does not; yoked repeats the levels "
-            "of another mission; FILE.py:CLASS loads your own.",
+            metavar="KIND|FILE.py:CLASS",
+            help="ana and knowledge choose how simple their words are; static and pace do not; "
+            "yoked speaks as the coach did in the mission of --levels-of; FILE.py:CLASS is "
+            "one of your own.",
         ),
         click.option(
             "--preset",
             shell_complete=offering(presets),
-            help=f"How ana adapts: {', '.join(PRESETS)}.",
+            metavar="NAME",
+            help=f"The rule by which ana adapts: {', '.join(PRESETS)}. docs/coaches.md tells them "
+            f"apart.  [default: {DEFAULT_PRESET}]",
         ),
         click.option(
             "--level",
             type=int,
             shell_complete=offering(levels),
-            help="The level of a static coach: 1, 2 or 3.",
+            metavar="1|2|3",
+            help="How a static coach speaks: step by step (1), by doors and hallways (2), or by "
+            "room names (3).",
         ),
         click.option(
             "--levels-of",
             type=click.Path(path_type=Path, dir_okay=False),
             metavar="JOURNAL",
-            help="The mission whose levels a yoked coach repeats.",
+            help="The mission whose levels a yoked coach repeats, at the same times.",
         ),
         click.option(
             "--seed",
@@ -96,7 +105,8 @@ def mission_options(command: _Command) -> _Command:
             "--log",
             type=click.Path(path_type=Path, file_okay=False),
             metavar="DIR",
-            help="The folder for journals.  [default: data/sessions]",
+            help="The folder for journals, one a mission.  [default: data/sessions in ana's own "
+            "folder, or your data folder where ana is installed]",
         ),
         click.option(
             "--controls",
@@ -104,14 +114,17 @@ def mission_options(command: _Command) -> _Command:
             help="What the arrows do: go in four directions (compass), or turn left and right and "
             "go ahead (turn).  [default: compass]",
         ),
-        click.option("--minutes", type=float, help="How long the mission lasts.  [default: 4]"),
+        click.option(
+            "--minutes", type=float, help="How long the mission lasts.  [default: by --difficulty]"
+        ),
         click.option(
             "--set",
             "assignments",
             shell_complete=offering(settings_offered),
             multiple=True,
             metavar="KEY=VALUE",
-            help="A mission setting, for example moves_per_second=20; repeatable.",
+            help="A mission setting, for example moves_per_second=20; repeatable. A KEY that "
+            "there is not is answered with all that there are.",
         ),
     )
     for option in reversed(options):
@@ -129,7 +142,7 @@ def mission_options(command: _Command) -> _Command:
     type=click.IntRange(0, 3600),
     default=0,
     metavar="SECONDS",
-    help="Show the map with the rooms' names for so long first.",
+    help="First show the map, with the rooms' names, for so many seconds.",
 )
 @click.option(
     "--text",
@@ -143,13 +156,28 @@ def play(now: bool, text: bool, memorise: int, **given: Any) -> int:
 
 
 @click.command(name="replay")
-@click.argument("journal", type=click.Path(path_type=Path))
-def replay_journal(journal: Path) -> int:
+@click.argument("journal", type=click.Path(path_type=Path), required=False)
+def replay_journal(journal: Path | None) -> int:
     """Replay the mission in JOURNAL, showing what the coach believed at each moment.
 
-    A folder stands for the session in it.
+    Instead of a journal you can give the folder of its session. Without either, your last mission
+    is replayed.
     """
+    if journal is None:
+        return run_replay(last_journal(sessions_folder()))
     return run_replay(only_journal(journal) if journal.is_dir() else journal)
+
+
+def last_journal(folder: Path) -> Path:
+    """The newest journal of free play in a folder. Raises AnaError where there is none."""
+    found = newest_journals(folder)
+    if not found:
+        raise AnaError(
+            "there is no mission to replay yet",
+            place=str(folder),
+            hint="Play one with `ana play`, or give the journal of another.",
+        )
+    return found[0]
 
 
 def only_journal(folder: Path) -> Path:

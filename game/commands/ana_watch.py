@@ -21,7 +21,7 @@ from game.screens.play.app import run_watch
     show_default=True,
     metavar="NAME",
     shell_complete=offering(rescuers),
-    help=f"Who plays: {', '.join(RESCUERS)}.",
+    help="Who plays: " + "; ".join(f"{who.name}, {who.summary}" for who in RESCUERS.values()) + ".",
 )
 def watch(rescuer: str, **given: Any) -> int:
     """Watch a simulated rescuer play a mission."""

@@ -42,7 +42,7 @@ _LETTERS = (
     "█   █  █  ▀█  █   █",
 )
 _BELOW_ROWS = 1
-_SUBTITLE = "a guided rescue"
+_SUBTITLE = "Find the people who lie hurt in this office. A coach tells you where to go."
 _SCENE = (
     "#################+#################",
     "#...............................R.#",
@@ -59,20 +59,20 @@ _SCENE_KINDS = {
     "@": Kind.PLAYER_EAST,
 }
 BUILDINGS = ("harbour", "foundry", "practice", GENERATED)
-VICTIMS = {"drawn": "as drawn", "seeded": "elsewhere each time"}
-CONTROLS = {"compass": "arrows walk", "turn": "arrows turn, and walk ahead"}
+VICTIMS = {"drawn": "in their usual places", "seeded": "in new places each time"}
+CONTROLS = {"compass": "each arrow walks its way", "turn": "← → turn, ↑ walks ahead"}
 DWELL_S = 1.0
 """How long a choice has stood before it is looked at what a literal reader reaches."""
 MOST_DIGITS = 9
 """Of a seed that is typed."""
 COACHES = (
-    ("ana", "ana, which adapts to you"),
-    ("knowledge", "knowledge, which learns what you know"),
-    ("static-1", "step by step (C1)"),
-    ("static-2", "by doors and hallways (C2)"),
-    ("static-3", "by room names (C3)"),
+    ("ana", "ana: words as simple as you need"),
+    ("knowledge", "knowledge: learns what you know"),
+    ("static-1", "always step by step (C1)"),
+    ("static-2", "always doors and hallways (C2)"),
+    ("static-3", "always room names (C3)"),
 )
-MEMORISING = ((0, "no"), (60, "for one minute"), (180, "for three minutes"))
+MEMORISING = ((0, "no"), (60, "first, for one minute"), (180, "first, for three minutes"))
 
 
 def scene_rows(glyphs: GlyphSet) -> list[Row]:
@@ -92,17 +92,17 @@ def menu_items(preferences: Preferences, reached: str = "", seed: str = "") -> t
         Item("play", "Play", note=reached),
         Item("building", "  in building", _building_name(preferences.building)),
         Item("coach", "  with coach", dict(COACHES)[preferences.coach]),
-        Item("victims", "  people lie", VICTIMS[preferences.victims]),
+        Item("victims", "  people are", VICTIMS[preferences.victims]),
         Item("difficulty", "  difficulty", preferences.difficulty),
         Item("controls", "  controls", CONTROLS[preferences.controls]),
-        Item("memorise", "  map first", dict(MEMORISING)[preferences.memorise]),
-        Item("seed", "  seed", note=f"{seed}▏" if seed else "a new one; or type a number"),
+        Item("memorise", "  study the map", dict(MEMORISING)[preferences.memorise]),
+        Item("seed", "  seed", note=f"{seed}▏" if seed else "a new one; type one to play it again"),
         Item("today", "Mission of the day"),
         Item("tutorial", "Tutorial, three minutes"),
+        Item("howto", "How to play"),
         Item("watch", "Watch a simulated rescuer"),
         Item("replay", "Your missions"),
         Item("settings", "Settings"),
-        Item("howto", "How to play"),
         Item("quit", "Quit"),
     )
 

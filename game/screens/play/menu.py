@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from rich.cells import cell_len
+
 from game.screens.widgets.canvas import Row
+
+_COLUMNS = 56
+"""A menu is at least as wide, so that it stands still while its choices change."""
 
 
 class Item(NamedTuple):
@@ -19,13 +24,16 @@ class Item(NamedTuple):
 
 def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
     """The menu as a block of equally wide rows."""
-    rows: list[Row] = []
-    for number, item in enumerate(items):
-        chosen = number == selected
-        choice = f"‹ {item.choice} ›" if item.choice else item.note
-        text = f" {'▸' if chosen else ' '} {item.text:<15}{choice}"
-        rows.append(((f"{text:<48}", "selected" if chosen else "item"),))
-    return rows
+    lines = [
+        f" {'▸' if number == selected else ' '} {item.text:<16}"
+        + (f"‹ {item.choice} ›" if item.choice else item.note)
+        for number, item in enumerate(items)
+    ]
+    columns = max(_COLUMNS, *(cell_len(line) + 1 for line in lines))
+    return [
+        ((f"{line:<{columns}}", "selected" if number == selected else "item"),)
+        for number, line in enumerate(lines)
+    ]
 
 
 def after(names: Sequence[Any], name: object, way: int) -> Any:

@@ -34,7 +34,7 @@ async def test_settings_hold_at_once_and_from_one_time_to_the_next(
         )
         assert app.theme == "ana-light"
         await press(pilot, "escape")
-        assert app.screen is home and "arrows turn" in shown(home)
+        assert app.screen is home and "← → turn" in shown(home)
         await press(pilot, "p")
         await until(pilot, StartScreen)
         await press(pilot, "x")
