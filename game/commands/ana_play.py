@@ -18,10 +18,9 @@ from game.coach.spec import DEFAULT_PRESET, parse_coach
 from game.commands.offered import buildings, coaches, levels, offering, presets
 from game.commands.offered import settings as settings_offered
 from game.errors import AnaError, choose_from
-from game.journal.folders import JOURNAL, all_journals
+from game.journal.folders import JOURNAL, all_journals, newest_journals
 from game.places import sessions_folder
 from game.screens.play.app import PlayOptions, run_play, run_replay
-from game.screens.play.past_missions import newest_journals
 from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED, shipped_buildings

@@ -16,6 +16,8 @@ from game.journal.reader import Transcript, read_file, read_journal
 from game.journal.records import STUDY_MODES, Mode, SessionStarted
 
 JOURNAL = "journal.jsonl"
+MOST_MISSIONS = 200
+"""So many journals of free play are looked at, the newest first."""
 SESSIONS = "sessions"
 
 
@@ -96,6 +98,12 @@ def misplaced(started: SessionStarted, study: Path, mode: Mode, home: str) -> st
     if None not in (here, there) and here != there:
         return f"this session is of another study: its seed is {there}, here it is {here}"
     return ""
+
+
+def newest_journals(folder: Path) -> tuple[Path, ...]:
+    """The journals of free play in `folder`, the newest first."""
+    found = {path: path.stat().st_mtime for path in folder.glob(f"*/{JOURNAL}")}
+    return tuple(sorted(found, key=lambda path: -found[path]))[:MOST_MISSIONS]
 
 
 def all_journals(folder: Path) -> tuple[Path, ...]:

@@ -26,6 +26,7 @@ from textual.screen import ModalScreen, Screen
 from textual.widgets import Static
 
 from game.errors import AnaError, where
+from game.journal.folders import newest_journals
 from game.journal.records import Interruption
 from game.places import sessions_folder
 from game.screens.widgets.keymap import read_keys, write_template
@@ -243,7 +244,6 @@ class AnaApp(Program, inherit_bindings=False):
 
     def _choose_journal(self) -> None:
         from game.screens.play.journal_list import JournalsScreen
-        from game.screens.play.past_missions import newest_journals
 
         journals = newest_journals(self._log_dir())
         self.push_screen(JournalsScreen(journals), self._journal_chosen)

@@ -15,6 +15,7 @@ from textual.screen import Screen
 from textual.timer import Timer
 
 from game.coach.spec import CoachSpec, parse_coach
+from game.journal.folders import newest_journals
 from game.screens.play.menu import Item, after, menu_rows
 from game.screens.play.mission_story import coach_name
 from game.screens.play.past_missions import (
@@ -22,7 +23,6 @@ from game.screens.play.past_missions import (
     PastMission,
     best,
     difficulty,
-    newest_journals,
     of_kind,
     past_missions,
 )

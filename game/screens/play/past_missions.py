@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from game.errors import AnaError
-from game.journal.folders import JOURNAL
+from game.journal.folders import MOST_MISSIONS
 from game.journal.history import MissionHistory, read_history
 from game.journal.reader import read_journal
 from game.screens.play.mission_story import coach_name
@@ -18,8 +18,6 @@ from game.world.reading import parse_building
 from game.world.settings import FREE_PLAY, MissionSettings
 from game.world.variant import Difficulty, with_demands
 
-MOST = 200
-"""So many journals are looked at, the newest first."""
 MissionKind = tuple[str, str, str]
 """What missions are compared by: building, coach and difficulty."""
 CANNOT_BE_READ = "cannot be read"
@@ -76,12 +74,6 @@ def difficulty(rules: MissionSettings, named: Difficulty = "standard") -> str:
     return ", ".join([named, *changed])
 
 
-def newest_journals(folder: Path) -> tuple[Path, ...]:
-    """The journals of free play in `folder`, the newest first."""
-    found = {path: path.stat().st_mtime for path in folder.glob(f"*/{JOURNAL}")}
-    return tuple(sorted(found, key=lambda path: -found[path]))[:MOST]
-
-
 def past_missions(journals: Iterable[Path]) -> tuple[PastMission, ...]:
     """The missions of these journals, in their order, without those that hold none or cannot be
     read."""
@@ -98,7 +90,7 @@ def past_mission(journal: Path) -> PastMission | str:
     return _read(journal, stat.st_mtime_ns, stat.st_size)
 
 
-@lru_cache(maxsize=2 * MOST)
+@lru_cache(maxsize=2 * MOST_MISSIONS)
 def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
     try:
         transcript = read_journal(journal)

@@ -12,10 +12,10 @@ from textual.containers import VerticalScroll
 from textual.message import Message
 from textual.screen import Screen
 
+from game.journal.folders import newest_journals
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.past_missions import (
-    newest_journals,
     past_mission,
     past_missions,
     standing,

@@ -12,6 +12,7 @@ import pytest
 
 from game.coach.spec import parse_coach
 from game.journal.clock import SystemClock
+from game.journal.folders import newest_journals
 from game.journal.reader import read_journal
 from game.rescuers.catalogue import LITERAL, character
 from game.rescuers.driver import drive
@@ -25,7 +26,6 @@ from game.screens.play.past_missions import (
     PastMission,
     best,
     difficulty,
-    newest_journals,
     past_missions,
     standing,
 )
