@@ -22,7 +22,7 @@ from analysis.stats.bayes import bayes_rows, need_bayes
 from analysis.stats.cellmodel import contrast_row, weights_of
 from analysis.stats.clustering import Clustering
 from analysis.stats.composites import composite_rows
-from analysis.stats.corrections import PValue, holm_by_name
+from analysis.stats.corrections import PValue, corrected_by_name
 from analysis.stats.equivalence import paired_row
 from analysis.stats.groups import group_shares, grouped
 from analysis.stats.intervals import SEED as BOOTSTRAP_SEED
@@ -49,8 +49,10 @@ from analysis.stats.robust import SEED as PERMUTATION_SEED
 from analysis.stats.rounds import rounds_rows
 from analysis.stats.sensitivity import continuous_rows, exclusion_rows, other_grouping_rows
 from game.journal.records import StudyMode
+from game.tables.designs import Correction
 from game.tables.exclusions import ExclusionRules, read_rules
 
+WITHOUT_INTERCEPT = EFFECTS[1:]
 #: Parts of an outcome that need the analysis cells.
 BY_CELL: Mapping[str, Callable[[RoundModels], Tree]] = {
     "cells": cell_rows,
@@ -127,6 +129,9 @@ def run_battery(
             "simulated": study.simulated,
             "n_randomised": len(randomised.participants),
             "n_analysed": len(study.participants),
+            "n_grouped": int(study.participants["knowledge"].notna().sum())
+            if study.has("knowledge")
+            else Absent("there are no knowledge groups"),
             "exclusion_rule": rules.main().name,
             "alpha_level": alpha,
             "groups": "stated" if sample.study.has("knowledge") else "formed from quiz_static",
@@ -136,6 +141,7 @@ def run_battery(
         "clustering": clustering if isinstance(clustering, Absent) else clustering.row(),
         "alpha": alpha_rows(study, alpha),
         "outcomes": by_outcome,
+        "primary": attempt(primary_rows, study, anovas),
         "holm_across_mental_states": holm_across(
             {state: anovas[state] for state in study.asked.mental_states}
         ),
@@ -222,15 +228,56 @@ def alignment_rows(models: RoundModels) -> list[Row]:
     return rows
 
 
+def primary_rows(study: StudyData, anovas: Mapping[str, list[Effect] | Absent]) -> dict[str, Tree]:
+    """The primary outcomes that the settings fix: p of every effect, and p corrected over them.
+
+    Raises Refusal where no settings are known.
+    """
+    primary = study.crossed.primary
+    if primary is None:
+        raise Refusal("no settings of the study are known, so no primary outcomes")
+    own = {
+        outcome: anovas[outcome] if outcome in anovas else attempt(_anova_of, study, outcome)
+        for outcome in primary.outcomes
+    }
+    plain_p, corrected = across(own, "none"), across(own, primary.correction)
+    effects: dict[str, Tree] = {
+        effect: {
+            outcome: {"p": plain_p[effect][outcome], "p_corrected": p}
+            for outcome, p in family.items()
+        }
+        for effect, family in corrected.items()
+        if effect in WITHOUT_INTERCEPT
+    }
+    return {
+        "outcomes": list(primary.outcomes),
+        "correction": primary.correction,
+        "effects": effects,
+    }
+
+
+def _anova_of(study: StudyData, outcome: str) -> list[Effect]:
+    if not study.has(outcome):
+        raise Refusal(f"nothing measures {outcome}")
+    return mixed_anova(paired(study, outcome))
+
+
 def holm_across(anovas: Mapping[str, list[Effect] | Absent]) -> dict[str, dict[str, PValue]]:
     """Holm over the outcomes, effect by effect; an outcome without ANOVA does not count."""
+    return across(anovas, "holm")
+
+
+def across(
+    anovas: Mapping[str, list[Effect] | Absent], correction: Correction
+) -> dict[str, dict[str, PValue]]:
+    """p of each effect, corrected over the outcomes; an outcome without ANOVA does not count."""
     by_effect: dict[str, dict[str, PValue]] = {}
     for effect in EFFECTS:
         family: dict[str, PValue] = {
             state: rows if isinstance(rows, Absent) else _p_of(rows, effect)
             for state, rows in anovas.items()
         }
-        by_effect[effect] = holm_by_name(family)
+        by_effect[effect] = corrected_by_name(family, correction)
     return by_effect
 
 

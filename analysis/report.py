@@ -23,7 +23,7 @@ def summary(
     lines = [
         f"{study.label}: {source['n_analysed']} analysed of {source['n_randomised']} participants"
         + (" - SIMULATED PEOPLE" if study.simulated else ""),
-        f"knowledge groups: {source['groups']}{_sizes(numbers['clustering'])}",
+        _groups(source, numbers["clustering"]),
         f"compared: {second} with {first}{_levels(study.crossed)}",
         *_alphas(numbers["composites"]),
         "",
@@ -36,6 +36,14 @@ def summary(
     lines += [f"problem: {problem}" for problem in problems]
     lines += [f"note: {note}" for note in notes]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _groups(source: Mapping[str, Any], clustering: Mapping[str, Any] | None) -> str:
+    if source["n_grouped"] is None:
+        return "knowledge groups: none, neither stated nor formed from quiz scores"
+    without = source["n_analysed"] - source["n_grouped"]
+    lacking = f"; {without} of the analysed without one" if without else ""
+    return f"knowledge groups: {source['groups']}{_sizes(clustering)}{lacking}"
 
 
 def _sizes(clustering: Mapping[str, Any] | None) -> str:

@@ -60,14 +60,15 @@ def specification_figure(
         below.set_xlim(-1, max(1, len(table)))
         below.set_xticks([])
         below.set_xlabel("specification, from the smallest p")
-        lost = f" {missing} more could not be had." if missing else ""
+        more = "specification" if missing == 1 else "specifications"
+        lost = f" {missing} further {more} could not be computed." if missing else ""
         return captioned(
             "specifications",
             figure,
             "The effect of knowledge, static level and adaptivity on engagement under every "
             "combination of sample, grouping of knowledge, model and correction over the four "
             f"mental states: see whether p stays on one side of {bounded(alpha, 2)} (dotted), and "
-            f"which choice moves it. p below .000001 is drawn there.{lost}",
+            f"which choice moves it. A p below .000001 is drawn at .000001.{lost}",
             simulated=simulated,
         )
 

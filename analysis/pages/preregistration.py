@@ -12,14 +12,15 @@ from analysis.sources.absent import SourceError
 from analysis.sources.provenance import Provenance
 from analysis.stats.anova import THREE_WAY
 from analysis.stats.apa import bounded
+from analysis.stats.corrections import NAMES
 from analysis.stats.equivalence import BOUND_SDS, PRIOR_SCALE
 from analysis.stats.level import percent
 from analysis.stats.power import PUBLISHED_PES, analytic_power
+from game.tables.designs import Correction
 from game.tables.exclusions import ExclusionRules
 
 BLOCK = 24
 KINDS = (".md", ".docx")
-CORRECTIONS = {"holm": "Holm", "bonf": "Bonferroni", "sidak": "Šidák", "none": "no correction"}
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def planned(path: Path, rules: ExclusionRules, alpha: float) -> list[Part]:
         people = BLOCK * int(study["blocks"])
         primary = study["primary"]
         outcomes = [str(outcome) for outcome in primary["outcomes"]]
-        correction = str(primary["correction"])
+        correction: Correction = primary["correction"]
         return [
             _study(study, people),
             _participants(people, rules),
@@ -122,8 +123,11 @@ def _measures() -> Part:
     )
 
 
-def _tests(outcomes: Sequence[str], correction: str, alpha: float) -> Part:
-    first = f"The primary outcomes are {' and '.join(outcomes)}."
+def _tests(outcomes: Sequence[str], correction: Correction, alpha: float) -> Part:
+    first = (
+        f"The primary outcomes are {' and '.join(outcomes)}; each effect's p-values are adjusted "
+        f"over them ({NAMES[correction]})."
+    )
     return Part(
         "Planned tests",
         (
@@ -138,9 +142,7 @@ def _tests(outcomes: Sequence[str], correction: str, alpha: float) -> Part:
             "Difference scores adaptive − static: knowledge groups are compared within each static "
             "level; the planned contrast is HIGH over LOW at C1 on engagement (Fig. 9).",
             "Inside each family of three comparisons, and over the four mental states, p-values "
-            "are "
-            f"adjusted by {CORRECTIONS.get(correction, correction)}; unadjusted ones are reported "
-            "too.",
+            "are adjusted by Holm; unadjusted ones are reported too.",
             "No effect of adaptivity is claimed only if two one-sided tests show equivalence "
             "within "
             f"{BOUND_SDS:g} standard deviations of the static round; a Bayes factor (JZS, scale "

@@ -18,7 +18,7 @@ EFFECT_WORDS = {
     "adaptivity": "effect of the adaptivity of instruction",
     "knowledge:adaptivity": "interaction of knowledge and adaptivity",
     "complexity:adaptivity": "interaction of static level and adaptivity",
-    "knowledge:complexity:adaptivity": "interaction of adaptivity, static level and knowledge",
+    "knowledge:complexity:adaptivity": "interaction of knowledge, static level and adaptivity",
 }
 
 
@@ -67,10 +67,15 @@ def level_sentence(
             f"{knowledge}-knowledge participants: {greater} and {less} cannot be compared on "
             f"{state}, because one of the cells is empty."
         )
+    if not _significant(row, alpha):
+        return (
+            f"{knowledge}-knowledge participants’ {state} did not differ significantly between "
+            f"{greater} and {less} instructions, {_contrast(row, alpha)}."
+        )
     way = "higher" if row["estimate"] >= 0 else "lower"
     return (
         f"{knowledge}-knowledge participants reported {way} {state} with {greater} than with "
-        f"{less} instructions, {_contrast(row, alpha)}{_verdict(row, alpha)}."
+        f"{less} instructions, {_contrast(row, alpha)}."
     )
 
 
@@ -78,13 +83,21 @@ def gain_sentence(outcome: str, greater: str, less: str, row: Numbers, alpha: fl
     """Difference scores of two cells compared, as the paper words it (Fig. 9)."""
     if row["estimate"] is None:
         return f"Gains in {outcome} of {greater} and {less} cannot be compared: a cell is empty."
+    if not _significant(row, alpha):
+        pair = " and ".join(
+            f"({name.split()[0]}-knowledge, {name.split()[1]})" for name in (greater, less)
+        )
+        return (
+            f"The changes in {outcome} that {pair} participants experienced when instructed "
+            f"adaptively did not differ significantly, {_contrast(row, alpha)}."
+        )
     size = decimal(abs(row["estimate"]))
     way = "greater" if row["estimate"] >= 0 else "smaller"
     one, other = (f"({name.split()[0]}-knowledge, {name.split()[1]})" for name in (greater, less))
     return (
         f"{one} participants experienced a change in {outcome} when instructed adaptively that was "
         f"{way} than that of {other} participants, by {size} points on average, "
-        f"{_contrast(row, alpha)}{_verdict(row, alpha)}."
+        f"{_contrast(row, alpha)}."
     )
 
 
@@ -98,9 +111,13 @@ def _contrast(row: Numbers, alpha: float) -> str:
     )
 
 
-def _verdict(row: Numbers, alpha: float) -> str:
+def _significant(row: Numbers, alpha: float) -> bool:
+    """Whether the Holm-adjusted p is below alpha."""
     p = row["p_holm"]
-    return "" if p is not None and p < alpha else ", which is not significant"
+    return p is not None and p < alpha
+
+
+DECIDES = "The Holm-adjusted *p* decides whether a difference is called significant."
 
 
 def paired_sentence(outcome: str, row: Numbers, alpha: float) -> str:

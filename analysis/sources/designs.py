@@ -4,20 +4,38 @@ supports."""
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from analysis.sources.absent import SourceError
 from analysis.sources.factors import ADAPTIVITY, COMPLEXITY
 from game.forms.form import Forms
-from game.tables.designs import LABELLED_LATE, labelled_late, levels_given, supported
+from game.tables.designs import (
+    LABELLED_LATE,
+    PRIMARY_CORRECTION,
+    PRIMARY_OUTCOMES,
+    Correction,
+    labelled_late,
+    levels_given,
+    supported,
+)
 
 SETTINGS = "study.toml"
 
 
 @dataclass(frozen=True)
+class Primary:
+    """The primary outcomes that the settings fix before any data are collected, and the correction
+    of each effect's p over them."""
+
+    outcomes: tuple[str, ...]
+    correction: Correction
+
+
+@dataclass(frozen=True)
 class Crossed:
     """What a study crosses: its instructors as study.toml names them, the static levels that
-    people were given, and the number of rounds. The paper's, if nothing is said."""
+    people were given, and the number of rounds; the paper's, if nothing is said. `primary` is None
+    where no settings are known."""
 
     instructors: tuple[str, str] = ("static", "ana")
     levels: tuple[str, ...] = COMPLEXITY
@@ -25,6 +43,7 @@ class Crossed:
     labels: bool = True
     preference: bool = True
     labelled_late: bool = False
+    primary: Primary | None = None
 
     @property
     def words(self) -> tuple[str, str]:
@@ -80,6 +99,13 @@ def crossed_in(folder: Path) -> Crossed:
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SourceError(f"the settings cannot be read ({error})", place=str(path)) from error
     static, ana = PAPER_DESIGN.instructors
+    correction = tree.get("primary", {}).get("correction", PRIMARY_CORRECTION)
+    if correction not in get_args(Correction):
+        raise SourceError(
+            f"primary.correction is {correction!r}",
+            place=str(path),
+            hint=f"It must be one of {', '.join(get_args(Correction))}",
+        )
     first, second = tree.get("instructors") or (static, tree.get("coach", ana))
     return Crossed(
         instructors=(first, second),
@@ -88,4 +114,8 @@ def crossed_in(folder: Path) -> Crossed:
         labels="label" in tree.get("round_phases", ("label",)),
         preference="preference" in tree.get("phases", ("preference",)),
         labelled_late=labelled_late(tree.get("round_phases", ())),
+        primary=Primary(
+            tuple(tree.get("primary", {}).get("outcomes", PRIMARY_OUTCOMES)),
+            correction,
+        ),
     )

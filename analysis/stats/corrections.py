@@ -9,6 +9,7 @@ from scipy import special, stats
 
 from analysis.sources.absent import Absent
 from analysis.sources.frames import Floats
+from game.tables.designs import Correction
 
 PValue: TypeAlias = float | Absent
 
@@ -79,9 +80,26 @@ def adjusted(family: Sequence[PValue]) -> list[dict[str, PValue]]:
     ]
 
 
-def holm_by_name(family: Mapping[str, PValue]) -> dict[str, PValue]:
-    """Holm-adjusted p by name; an absent p stays absent and does not count."""
+NAMES: dict[Correction, str] = {
+    "none": "no correction",
+    "bonferroni": "Bonferroni",
+    "sidak": "Šidák",
+    "holm": "Holm",
+}
+"""What the corrections of study.toml are called."""
+COLUMNS: dict[Correction, str] = {
+    "none": "p_none",
+    "bonferroni": "p_bonf",
+    "sidak": "p_sidak",
+    "holm": "p_holm",
+}
+
+
+def corrected_by_name(
+    family: Mapping[str, PValue], correction: Correction = "holm"
+) -> dict[str, PValue]:
+    """Adjusted p by name; an absent p stays absent and does not count."""
     return {
-        name: row["p_holm"]
+        name: row[COLUMNS[correction]]
         for name, row in zip(family, adjusted(list(family.values())), strict=True)
     }

@@ -20,6 +20,7 @@ from game.errors import AnaError, did_you_mean, disk_hint
 from game.study.design import Design
 from game.study.files import LEDGER, NEW_STUDY, NO_STUDY
 from game.study.instructors import Instructor, instructor_named
+from game.tables.designs import PRIMARY_CORRECTION, PRIMARY_OUTCOMES, Correction
 from game.toml_words import in_plain_words, listed, parted
 from game.world.settings import MissionSettings
 
@@ -71,8 +72,8 @@ class Primary(_Section, frozen=True):
     """The outcomes and the multiple-test correction chosen before any data are collected: victims,
     and whatever forms.toml asks after each mission."""
 
-    outcomes: tuple[str, ...] = ("engagement", "victims")
-    correction: Literal["none", "bonferroni", "sidak", "holm"] = "holm"
+    outcomes: tuple[str, ...] = PRIMARY_OUTCOMES
+    correction: Correction = PRIMARY_CORRECTION
 
 
 class WebSettings(_Section, frozen=True):

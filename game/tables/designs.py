@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from game.forms.form import Forms
 from game.tables.asked import outcomes_of
 
 PAPER_LEVELS = ("C1", "C2", "C3")
+Correction = Literal["none", "bonferroni", "sidak", "holm"]
+PRIMARY_OUTCOMES = ("engagement", "victims")
+PRIMARY_CORRECTION: Correction = "holm"
+"""The primary outcomes of a study whose settings do not say, and the correction over them."""
 KNOWLEDGE_GROUPS = 3
 LABELLED_LATE = (
     "rooms are labelled after the mission, so the scores that form the knowledge groups also hold "

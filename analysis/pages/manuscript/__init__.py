@@ -15,6 +15,7 @@ from analysis.pages.manuscript.part import Drawing, Found, Part
 from analysis.pages.manuscript.participants import participants
 from analysis.pages.manuscript.performance import performance
 from analysis.pages.manuscript.preference import preference
+from analysis.pages.manuscript.primary import primary
 from analysis.pages.style import SIMULATED, Captioned
 from analysis.sources.absent import Absent, attempt
 from analysis.sources.frames import StudyData
@@ -24,7 +25,7 @@ __all__ = ["PARTS", "PRINTED", "Found", "Section", "figures_in", "manuscript", "
 Parts = tuple[Callable[[Found], Part], ...]
 PRINTED: Parts = (measures, participants, mental_states, performance, adaptivity)
 """The parts for which the paper prints numbers."""
-PARTS: Parts = (*PRINTED, levels, preference, beyond)
+PARTS: Parts = (measures, participants, primary, *PRINTED[2:], levels, preference, beyond)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from analysis.pages.figures import cells_figure, fig9_adaptivity, first_state
 from analysis.pages.manuscript.contrasts import contrast_cells, turned
 from analysis.pages.manuscript.part import Found, Part, drawing
 from analysis.pages.published import POSTHOC_FILE, printed
-from analysis.pages.sentences import gain_sentence
+from analysis.pages.sentences import DECIDES, gain_sentence
 from analysis.stats.apa import DASH
 from analysis.stats.level import percent
 
@@ -39,6 +39,8 @@ def adaptivity(found: Found) -> Part:
             (f"{first} over {second}", *contrast_cells(shown),
              points if published else DASH, line["p_printed"] if published else DASH)
         )  # fmt: skip
+    if sentences:
+        sentences.append(DECIDES)
     ci = f"{percent(1 - found.alpha)} CI"
     table = ApaTable(
         "fig9",

@@ -38,12 +38,17 @@ def measures(found: Found) -> Part:
                 "Knowledge groups formed from the quiz scores",
                 ("Group", "*n*", "*M* score", *COMPLEXITY),
                 tuple(rows),
-                "C1 to C3 are the people of the analysed sample at each static level. The paper "
-                "prints neither cuts nor sizes.",
+                f"C1 to C3 are the people of each group at each static level.{_without(found)} The "
+                "paper prints neither cuts nor sizes.",
             )
         )
-    else:
+    elif found.study.has("knowledge"):
         sentences.append("The knowledge groups are those that the source states.")
+    else:
+        sentences.append(
+            "There are no knowledge groups: the source states none, and none could be formed from "
+            "quiz scores."
+        )
     printed_alpha = f"{bounded(float(found.printed(_ALPHA)))}"
     sentences.append(alpha_sentence(numbers["alpha"]["all"], alpha, printed_alpha))
     tables.append(
@@ -65,3 +70,11 @@ def measures(found: Found) -> Part:
         )
     )
     return Part("Measures (paper, section 5.3)", sentences, tables, [])
+
+
+def _without(found: Found) -> str:
+    source = found.numbers["source"]
+    lacking = source["n_analysed"] - source["n_grouped"]
+    if not lacking:
+        return ""
+    return f" Of the {source['n_analysed']} analysed, {lacking} have no quiz score and so no group."

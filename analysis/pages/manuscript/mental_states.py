@@ -8,7 +8,7 @@ from analysis.pages.figures import fig7_mental_states
 from analysis.pages.manuscript.contrasts import contrast_cells, turned
 from analysis.pages.manuscript.part import Found, Numbers, Part, drawing
 from analysis.pages.published import POSTHOC_FILE, printed
-from analysis.pages.sentences import level_sentence
+from analysis.pages.sentences import DECIDES, level_sentence
 from analysis.stats.apa import DASH, MINUS
 from analysis.stats.cellmodel import cell_words
 from analysis.stats.level import percent
@@ -31,6 +31,8 @@ def mental_states(found: Found) -> Part:
             (line["outcome"], line["knowledge"], f"{line['greater']} > {line['less']}",
              *contrast_cells(row), _printed_p(line))
         )  # fmt: skip
+    if sentences:
+        sentences.append(DECIDES)
     head = (
         "*M* difference", f"{percent(1 - found.alpha)} CI", "*t*", "*df*", "*p*", "*p* Holm",
         "*d*", f"*d* {percent(1 - found.alpha)} CI",

@@ -6,6 +6,7 @@ from analysis.pages.apa_table import ApaTable
 from analysis.pages.manuscript.part import Found, Part
 from analysis.sources.factors import COMPLEXITY
 from analysis.stats.apa import DASH
+from game.tables.exclusions import read_rules
 
 
 def participants(found: Found) -> Part:
@@ -18,6 +19,7 @@ def participants(found: Found) -> Part:
         return str(int((table[column] == value).sum()))
 
     left = len(everybody) - len(kept)
+    with_group = found.numbers["source"]["n_grouped"]
     rows = [
         ("Participants randomised", str(len(everybody)), found.printed("participants recruited")),
         ("Adaptive instructor first, randomised", count(everybody, "order", "adaptive_first"),
@@ -32,13 +34,18 @@ def participants(found: Found) -> Part:
         ("Static instructor first, analysed", count(kept, "order", "static_first"),
          found.printed("static first analysed")),
         ("Participants analysed", str(len(kept)), "100"),
+        ("With a knowledge group", DASH if with_group is None else str(with_group), DASH),
     ]  # fmt: skip
-    rule = found.numbers["source"]["exclusion_rule"]
+    rules = read_rules().known_to(list(everybody.columns))
+    people = "participant" if len(everybody) == 1 else "participants"
+    grouped = (
+        "" if with_group in (None, len(kept)) else f", {with_group} of them with a knowledge group"
+    )
     sentences = [
-        f"Data were collected from {len(everybody)} participants, of whom {left or 'none'} "
-        f"{'were' if left > 1 else 'was'} left out by the rule “{rule}” (the paper: 8 who "
-        "disobeyed more than five times)"
-        f", which left {len(kept)} (paper: 100)."
+        f"Data were collected from {len(everybody)} {people}, of whom {left or 'none'} "
+        f"{'were' if left > 1 else 'was'} left out ({rules.main().words.rstrip('.')}; the "
+        f"paper: 8, who disobeyed more than five times), which left {len(kept)} (paper: 100)"
+        f"{grouped}."
     ]
     table = ApaTable(
         "participants",

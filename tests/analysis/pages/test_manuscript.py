@@ -25,13 +25,18 @@ from analysis.pages import style
 from analysis.pages.apa_table import ApaTable, marked, unmarked
 from analysis.pages.manuscript import Found, Section, manuscript, tables_of
 from analysis.pages.manuscript.contrasts import turned
+from analysis.pages.manuscript.measures import measures
+from analysis.pages.manuscript.primary import primary as primary_part
 from analysis.pages.other_programs import wide_csv
 from analysis.pages.published import PUBLISHED
+from analysis.pages.sentences import gain_sentence, level_sentence
 from analysis.pages.style import FORMATS
+from analysis.sources.designs import Primary
 from analysis.sources.frames import StudyData
 from analysis.sources.provenance import provenance
 from analysis.stats.cellmodel import CELLS
 from game.tables.asked import Outcomes
+from game.tables.designs import Correction
 from game.tables.exclusions import read_rules
 from tests.analysis.pages.drawn import faults
 
@@ -85,8 +90,73 @@ def test_every_printed_number_stands_beside_ours(sections: list[Section]) -> Non
 def test_the_papers_contrast_is_worded_as_in_the_paper(sections: list[Section]) -> None:
     told = [text for section in sections for text in section.sentences if "26.44" in text]
     assert len(told) == 1
-    assert told[0].startswith("(HIGH-knowledge, C1) participants experienced a change")
-    assert "(LOW-knowledge, C1) participants, by " in told[0]
+    row = {**ROW, "df": 80, "p_none": 0.01, "p_holm": 0.03}
+    words = gain_sentence("engagement", "HIGH C1", "LOW C1", row, 0.05)
+    assert words.startswith("(HIGH-knowledge, C1) participants experienced a change")
+    assert "(LOW-knowledge, C1) participants, by 2.00 points" in words
+
+
+@pytest.mark.parametrize("p_holm", [0.049, 0.05, 0.6, None])
+def test_a_difference_is_asserted_only_if_it_is_significant(p_holm: float | None) -> None:
+    row = {**ROW, "df": 80, "p_none": 0.01, "p_holm": p_holm}
+    level = level_sentence("engagement", "LOW", "C1", "C3", row, 0.05)
+    gain = gain_sentence("engagement", "HIGH C1", "LOW C1", row, 0.05)
+    significant = p_holm is not None and p_holm < 0.05
+    assert ("reported higher engagement" in level) == significant
+    assert ("was greater than that of" in gain) == significant
+    for words in (level, gain):
+        assert ("did not differ significantly" in words) == (not significant)
+
+
+@pytest.mark.parametrize(
+    ("correction", "times"), [("none", 1), ("bonferroni", 2), ("holm", 2), ("sidak", 2)]
+)
+def test_the_primary_outcomes_are_reported_with_the_correction_that_the_settings_name(
+    read_table: ReadTable, make_table: MakeTable, correction: Correction, times: int
+) -> None:
+    study = read_table(make_table(dict.fromkeys(CELLS, 4)))
+    primary = Primary(("engagement", "victims"), correction)
+    result = run_battery(
+        replace(study, crossed=replace(study.crossed, primary=primary)), read_rules()
+    )
+    effects: Any = result.results["primary"]
+    family = effects["effects"]["adaptivity"]
+    least = min(family.values(), key=lambda row: row["p"])
+    expected = 1 - (1 - least["p"]) ** 2 if correction == "sidak" else times * least["p"]
+    assert least["p_corrected"] == pytest.approx(min(1, expected))
+    numbers = json.loads(result.to_json())
+    part = primary_part(Found(numbers, result.study, study, None, PUBLISHED))
+    assert "engagement and victims" in part.sentences[0]
+    (table,) = part.tables
+    assert {row[0] for row in table.rows} == {"engagement", "victims"}
+
+
+def test_a_source_without_settings_says_that_it_states_no_primary_outcomes(
+    sections: list[Section],
+) -> None:
+    (section,) = (one for one in sections if one.title == "Primary outcomes")
+    assert section.sentences == ("The source states no primary outcomes.",)
+
+
+def test_the_people_without_a_group_are_counted(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    study = read_table(make_table(dict.fromkeys(CELLS, 4)).drop(columns="disobeyed"))
+    groups = study.participants["knowledge"].drop("P001")
+    told = [text for one in sections_of(study.with_groups(groups)) for text in one.sentences]
+    n = len(study.participants)
+    assert any(f"{n - 1} of them with a knowledge group" in text for text in told)
+
+
+def test_without_groups_nothing_says_that_groups_are_stated(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    study = read_table(make_table(dict.fromkeys(CELLS, 2))).without_groups()
+    result = run_battery(study, read_rules())
+    numbers = json.loads(result.to_json())
+    part = measures(Found(numbers, result.study, study, None, PUBLISHED))
+    assert part.sentences[0].startswith("There are no knowledge groups")
+    assert "knowledge groups: none" in result.table()
 
 
 def test_sentences_have_the_form_of_the_manual(sections: list[Section]) -> None:
@@ -267,7 +337,7 @@ def test_a_study_that_asks_other_questions_has_its_own_outcomes(
     sections = sections_of(other)
     test_no_table_has_an_unformed_number(sections)
     assert {row[0] for row in table_called(sections, "anova_all").rows} == {"victims", "calm"}
-    drawn = [figure for at in (2, 4) for figure in sections[at].figures]
+    drawn = [figure for at in (3, 5) for figure in sections[at].figures]
     assert [figure.name for figure in drawn] == ["fig7_mental_states", "fig9_calm", "cells_calm"]
     assert [fault for figure in drawn for fault in faults(figure)] == []
     assert "calm_static" in wide_csv(other).splitlines()[0]

@@ -17,7 +17,7 @@ from analysis.sources.absent import Absent, Refusal
 from analysis.sources.factors import COMPLEXITY, KNOWLEDGE, LIKERT_ITEMS, OUTCOMES
 from analysis.sources.frames import Paired, StudyData, both_rounds, paired
 from analysis.stats.assumptions import hc3_rows
-from analysis.stats.corrections import adjusted, holm_by_name, tukey
+from analysis.stats.corrections import adjusted, corrected_by_name, tukey
 from analysis.stats.equivalence import jzs_bayes_factor, paired_row
 from analysis.stats.posthoc import (
     RoundModels,
@@ -64,7 +64,7 @@ def test_tukey_equals_scipy(means: int, df: int) -> None:
 
 def test_an_absent_p_stays_absent_and_does_not_count() -> None:
     gone = Absent("why")
-    assert holm_by_name({"a": 0.02, "b": gone, "c": 0.5}) == {"a": 0.04, "b": gone, "c": 0.5}
+    assert corrected_by_name({"a": 0.02, "b": gone, "c": 0.5}) == {"a": 0.04, "b": gone, "c": 0.5}
 
 
 @pytest.mark.parametrize("outcome", OUTCOMES)
