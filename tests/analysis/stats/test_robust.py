@@ -140,7 +140,10 @@ def test_a_curve_of_a_pilot_says_what_could_not_be_had(
     rows = specification_rows(read_table(table), read_rules())
     assert rows and all(isinstance(row["p"], Absent) for row in rows)
     drawn = specification_figure(rows, simulated=False)
-    assert f"{len(rows)} more could not be had" in drawn.caption and faults(drawn) == []
+    assert (
+        f"{len(rows)} further specifications could not be computed" in drawn.caption
+        and faults(drawn) == []
+    )
     assert survival(rows) == []
 
 
