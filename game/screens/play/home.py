@@ -60,7 +60,7 @@ _SCENE_KINDS = {
 }
 BUILDINGS = ("harbour", "foundry", "practice", GENERATED)
 VICTIMS = {"drawn": "in their usual places", "seeded": "in new places each time"}
-CONTROLS = {"compass": "each arrow walks its way", "turn": "← → turn, ↑ walks ahead"}
+CONTROLS = {"compass": "arrows walk up, down, left, right", "turn": "← → turn, ↑ walks ahead"}
 DWELL_S = 1.0
 """How long a choice has stood before it is looked at what a literal reader reaches."""
 MOST_DIGITS = 9
@@ -243,7 +243,7 @@ class HomeScreen(Pointed, Screen[None]):
             latest = max(such, key=lambda it: it.at)
             told.append(f"best {top.rescued}, last time {latest.rescued}")
         if reader is not None:
-            told.append(f"following every word: {reader}")
+            told.append(f"doing all that the coach says: {reader}")
         return "; ".join(told)
 
     def _dwell(self) -> None:

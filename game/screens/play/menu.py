@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from rich.cells import cell_len
-
 from game.screens.widgets.canvas import Row
 
 _COLUMNS = 56
@@ -29,7 +27,7 @@ def menu_rows(items: Sequence[Item], selected: int) -> list[Row]:
         + (f"‹ {item.choice} ›" if item.choice else item.note)
         for number, item in enumerate(items)
     ]
-    columns = max(_COLUMNS, *(cell_len(line) + 1 for line in lines))
+    columns = max(_COLUMNS, *(len(line) + 1 for line in lines))
     return [
         ((f"{line:<{columns}}", "selected" if number == selected else "item"),)
         for number, line in enumerate(lines)

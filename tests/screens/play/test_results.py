@@ -267,10 +267,10 @@ async def test_home_says_what_a_literal_reader_reaches_once_a_choice_stands(
     async with open_app(AnaApp.show_home) as (_, pilot):
         home = await until(pilot, HomeScreen)
         for _ in range(500):
-            if "following every word: 17" in shown(home):
+            if "doing all that the coach says: 17" in shown(home):
                 break
             await asyncio.sleep(0.02)
-        assert "following every word: 17" in shown(home)
+        assert "doing all that the coach says: 17" in shown(home)
         home._select("victims")
         await press(pilot, "right", "left", "right")
         await asyncio.sleep(0.2)
