@@ -56,10 +56,12 @@ def ana_study(name: str, study: Study, *arguments: str) -> subprocess.CompletedP
 
 
 def test_the_server_says_how_participants_come_in(served: Served) -> None:
-    said = "".join(served.said)
-    assert f"participants come to {served.address} (Ctrl+C ends this)" in said
-    assert f"ana study invite {served.study.folder} P01 P02 ... --url {served.address}" in said
-    assert f"{served.address}?PROLIFIC_PID=ID" in said
+    expected = (
+        f"participants come to {served.address} (Ctrl+C ends this)",
+        f"ana study invite {served.study.folder} P01 P02 ... --url {served.address}",
+        f"{served.address}?PROLIFIC_PID=ID",
+    )
+    until(lambda: all(line in "".join(served.said) for line in expected))
 
 
 def test_an_invitations_link_opens_the_study(served: Served) -> None:
