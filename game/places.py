@@ -26,6 +26,14 @@ def sessions_folder(package: Path = PACKAGE) -> Path:
     return user_data_path("ana", appauthor=False) / "sessions"
 
 
+def shortened(path: Path) -> str:
+    """A path as it is shown: the home folder as `~`."""
+    try:
+        return str(Path("~") / path.relative_to(Path.home()))
+    except (ValueError, RuntimeError):
+        return str(path)
+
+
 def reports_folder(package: Path = PACKAGE) -> Path:
     """The folder for reports of what failed, beside that for journals."""
     return sessions_folder(package).with_name("reports")

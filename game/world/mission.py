@@ -75,7 +75,7 @@ class Mission:
         self.position = building.start
         self.heading = building.start_heading
         self.ended = False
-        self.rescued = 0
+        self.rescued = self.lost = 0
         self._last_due = Due(settings.duration_ms, Order.MISSION_END)
         self._expiry_due = Due(settings.reds_expire_ms, Order.EXPIRY)
         self.victims = {site.id: VictimState.WAITING for site in building.victims}
@@ -178,6 +178,7 @@ class Mission:
             score=self.score if settings.show_score else None,
             ended=self.ended,
             guidance=guidance,
+            lost=self.lost,
         )
 
     def victim_in_reach(self) -> VictimSite | None:
@@ -244,6 +245,7 @@ class Mission:
 
     def _expire_reds(self, at_ms: int) -> list[MissionEvent]:
         expired, self._reds_waiting = self._reds_waiting, []
+        self.lost += len(expired)
         for victim in expired:
             self.victims[victim] = VictimState.EXPIRED
         self._look()

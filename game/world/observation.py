@@ -60,7 +60,8 @@ class Observation:
     follows from it. `visible` and `explored` are masks over it (see `game.world.plan`);
     `explored` includes `visible`.
     `remembered` are victims that were in view before and are not now, as they were last seen.
-    `score` is None where the mission hides it.
+    `score` is None where the mission hides it. `lost` counts the red victims whose time ran out,
+    wherever they lay.
     """
 
     terrain: Terrain
@@ -78,6 +79,7 @@ class Observation:
     score: int | None
     ended: bool
     guidance: Guidance | None
+    lost: int = 0
 
     @property
     def plan(self) -> Plan:

@@ -100,7 +100,7 @@ def coach_rows(
         return beside(left, _expected(thoughts.judged), 27)
     if not infers:
         level, goal = _level(thoughts, building)
-        return [level, goal, (("This coach does not use P(g*)", "quiet"),), *_belief(thoughts)]
+        return [level, goal, (("does not judge the walk", "quiet"),), *_belief(thoughts)]
     left = [*_level(thoughts, building), *_comprehension(thoughts), *_belief(thoughts)]
     if columns < 48:
         return [*left, BLANK, *_listed(thoughts, building, columns)]
@@ -147,7 +147,7 @@ def _comprehension(thoughts: Thoughts) -> list[Row]:
     """P(g*) as a bar with marks at the two thresholds."""
     evaluation = thoughts.evaluation
     if evaluation is None:
-        return [(("P(g*) not known yet", "quiet"),), BLANK]
+        return [(("has not judged the walk", "quiet"),), BLANK]
     verdict = "no evidence" if evaluation.verdict == "none" else evaluation.verdict
     return [
         (("P(g*) ", "quiet"), (f"{evaluation.comprehension:.2f}", _zone(evaluation)),

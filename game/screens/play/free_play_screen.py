@@ -1,4 +1,5 @@
-"""A mission of free play: the mission screen with the keys at its foot, and the bar explained."""
+"""A mission of free play: the mission screen with the keys at its foot, the bar explained, and the
+deaths of red victims told."""
 
 from __future__ import annotations
 
@@ -7,9 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from textual.app import ComposeResult
+from textual.timer import Timer
 
 from game.screens.play.live import LiveMission
-from game.screens.play.mission_screen import MissionScreen
+from game.screens.play.mission_screen import ASKED_S, MissionScreen
 from game.screens.widgets.howto import HasKeys
 from game.screens.widgets.instruction_bar import announces
 from game.screens.widgets.keyline import KeyLine
@@ -18,6 +20,8 @@ from game.screens.widgets.preferences import USUAL_PREFERENCES, Preferences
 from game.world.observation import Guidance, Observation
 from game.world.settings import MissionSettings
 
+DIED_MS = 8_000
+"""For how long the bar says that red victims died."""
 _TREATING = re.compile(
     r"(Utilize medical equipment|(?:Approach and save|Triage) the (?:red|blue) victim)\."
 )
@@ -51,6 +55,17 @@ class Gloss:
         return replace(observation, guidance=Guidance(text, guidance.notice))
 
 
+def deaths_told(observation: Observation, rules: MissionSettings) -> Observation:
+    """The observation with a notice on its bar, where red victims have just died."""
+    lost = observation.lost
+    if not lost or observation.time_ms >= rules.reds_expire_ms + DIED_MS or observation.ended:
+        return observation
+    guidance = observation.guidance or Guidance("")
+    died = f"Time is up for red victims: {lost} died."
+    notice = f"{died} {guidance.notice}".rstrip()
+    return replace(observation, guidance=Guidance(guidance.text, notice))
+
+
 def mission_keys(rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[tuple[str, str]]:
     """The keys of a mission, as many as there are by its rules, each with what it does."""
     label = keys.label
@@ -73,6 +88,9 @@ class FreePlayScreen(MissionScreen):
         super().__init__(live, journal)
         self._gloss = Gloss()
         self._said = Guidance("")
+        self._keys = KeyLine(id="keys")
+        self._telling: Timer | None = None
+        self.view.status.deaths = True
         self.prefer(preferences)
 
     def prefer(self, preferences: Preferences) -> None:
@@ -83,11 +101,25 @@ class FreePlayScreen(MissionScreen):
 
     def compose(self) -> ComposeResult:
         yield from super().compose()
-        keys = self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
-        self._gloss = Gloss(keys.label("treat").lower())
-        yield KeyLine(*mission_keys(self.live.settings, keys), id="keys")
+        self._gloss = Gloss(self._keymap().label("treat").lower())
+        self._name_keys()
+        yield self._keys
+
+    def _keymap(self) -> KeyMap:
+        return self.app.keys if isinstance(self.app, HasKeys) else USUAL_KEYS
+
+    def _name_keys(self) -> None:
+        self._keys.set_keys(*mission_keys(self.live.settings, self._keymap()))
+
+    def tell(self, text: str) -> None:
+        """Show a text for a moment in place of the keys, where it covers nothing."""
+        if self._telling is not None:
+            self._telling.stop()
+        self._keys.set_keys((text, ""))
+        self._telling = self.set_timer(ASKED_S, self._name_keys)
 
     def show(self, observation: Observation) -> None:
+        observation = deaths_told(observation, self.live.settings)
         said = observation.guidance or Guidance("")
         if self._rings and announces(said, self._said):
             self.app.bell()

@@ -261,5 +261,9 @@ class MissionScreen(LiveScreen):
         with self.kept():
             self.live.ask_level(want)
         self.refresh_view()
+        self.tell(self.asked_words(want))
+
+    def tell(self, text: str) -> None:
+        """Show a text for `ASKED_S`, in a corner."""
         self.app.clear_notifications()
-        self.notify(self.asked_words(want), timeout=ASKED_S)
+        self.notify(text, timeout=ASKED_S)

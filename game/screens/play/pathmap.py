@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import Final
 
 from game.screens.play.mission_story import MissionStory
-from game.screens.widgets.canvas import Row, Run
+from game.screens.widgets.canvas import Row, Run, width
 from game.screens.widgets.glyphs import HEADING_ARROWS
 from game.screens.widgets.minimap import (
     HALF_BLOCKS,
@@ -19,6 +19,7 @@ from game.screens.widgets.minimap import (
     SmallMap,
     map_size,
 )
+from game.screens.widgets.statuspanel import clock_text
 from game.world.building import VictimSite
 from game.world.geometry import Cell, Heading
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
@@ -36,6 +37,12 @@ _ARROW_EVERY = 12
 """Along the way so many steps have one arrow."""
 _DOT_EVERY = 4
 """Along a wall so many characters of it have one dot."""
+_MEANINGS = {
+    VictimState.RESCUED: "rescued",
+    VictimState.EXPIRED: "died",
+    VictimState.WAITING: "{severity}, not reached",
+}
+_ORDER = list(_MEANINGS)
 END: Final[Pin] = "■", "here/here"
 
 
@@ -128,17 +135,39 @@ def _arrows(
     return arrows
 
 
-def legend_row(story: MissionStory, *, filled: bool) -> Row:
-    """What the signs of the beginning and the end mean, and the colours of the way."""
+def way_legend(story: MissionStory, columns: int, *, filled: bool) -> list[Row]:
+    """What the signs on the map mean, in rows of `columns`: beginning and end, the colours of the
+    way and its arrows, and what became of the victims."""
     start = HEADING_ARROWS[story.building.start_heading], "here/here"
-    began: Row = (start, (" where you started", "quiet"))
-    if story.path[-1] == story.building.start:
-        return began
-    ended: Row = (*began, ("   ", ""), END, (" where you finished", "quiet"))
-    if not filled:
-        return ended
-    time = tuple(("  ", f"{trail}/{trail}") for trail in TRAILS)
-    return (*ended, ("   ", ""), *time, (" earlier to later", "quiet"))
+    inks = [f"{trail}/{trail}" if filled else trail for trail in TRAILS]
+    sign = "  " if filled else "• "
+    full = clock_text(story.settings.duration_ms)
+    time: Row = (("your way 0:00 ", "quiet"), *((sign, ink) for ink in inks), (f" {full}", "quiet"))
+    parts: list[Row] = [(start, (" start", "quiet")), (END, (" end", "quiet")), time]
+    return [*_in_rows(parts, columns), *fates_legend(story, columns)]
+
+
+def fates_legend(story: MissionStory, columns: int) -> list[Row]:
+    """What the signs of the victims shown mean, in rows of `columns`."""
+    shown = [story.fates[victim] for victim in sorted(story.revealed)]
+    signs = {(fate.state, *victim_pin(fate.victim, fate.state)): fate.victim for fate in shown}
+    parts: list[Row] = []
+    for (state, sign, ink), victim in sorted(signs.items(), key=lambda it: _ORDER.index(it[0][0])):
+        meaning = _MEANINGS[state].replace("{severity}", str(victim.severity))
+        parts.append(((sign, f"{ink}/dark"), (f" {meaning}", "quiet")))
+    return _in_rows(parts, columns)
+
+
+def _in_rows(parts: Iterable[Row], columns: int) -> list[Row]:
+    """The parts side by side, in as many rows of `columns` as they take."""
+    rows: list[Row] = []
+    for part in parts:
+        joined: Row = (*rows[-1], ("   ", ""), *part) if rows else part
+        if rows and width(joined) <= columns:
+            rows[-1] = joined
+        else:
+            rows.append(part)
+    return rows
 
 
 def _names(story: MissionStory) -> dict[Cell, Pin]:

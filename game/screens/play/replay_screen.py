@@ -65,7 +65,7 @@ def timeline_rows(replay: Replay, columns: int, *, playing: bool, speed: int) ->
     state = "▶ playing" if playing else "‖ stopped"
     where = f"  {_at(replay.time_ms)} of {_at(replay.duration_ms)}"
     legend: Row = (
-        ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" lost ", "quiet"),
+        ("    ✓", "rescued"), (" rescue ", "quiet"), ("✗", "expired"), (" death ", "quiet"),
         ("◆", "level"), (" new level", "quiet"),
     )  # fmt: skip
     return [
@@ -128,6 +128,7 @@ class ReplayScreen(Screen[None]):
         self.replay = replay
         self._panel = CoachPanel(replay.building, replay.started.coach)
         self._view = MissionView(replay.started.settings, self._panel)
+        self._view.status.deaths = True
         self._timeline = Timeline()
         self._keys = KeyLine(id="keys")
         self._number, self._count = replay.number, replay.count

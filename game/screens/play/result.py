@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
+from rich.cells import cell_len
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
@@ -13,6 +14,7 @@ from textual.message import Message
 from textual.screen import Screen
 
 from game.journal.folders import newest_journals
+from game.places import shortened
 from game.screens.play.benchmark import literal_rescues
 from game.screens.play.mission_story import Fate, MissionStory
 from game.screens.play.past_missions import (
@@ -20,7 +22,7 @@ from game.screens.play.past_missions import (
     past_missions,
     standing,
 )
-from game.screens.play.pathmap import legend_row, path_map, victim_pin
+from game.screens.play.pathmap import fates_legend, path_map, victim_pin, way_legend
 from game.screens.widgets.aside import aside
 from game.screens.widgets.canvas import BLANK, Canvas, Row, Run, beside, width, wrapped
 from game.screens.widgets.charts import area_chart, step_chart
@@ -44,6 +46,7 @@ _FATE_COLUMNS = 31
 _AROUND_ROWS = 2
 """What stands around the page: the names of the pages, and the keys."""
 _MARGIN_COLUMNS = 3
+_SCROLLBAR_COLUMNS = 1
 _WAITING = VictimState.WAITING
 _NAMES = {1: "C1", 2: "C2", 3: "C3"}
 
@@ -91,7 +94,7 @@ def total_rows(story: MissionStory) -> list[Row]:
     first: Row = (
         (f"{story.rescued} of {total} rescued", "big"),
         (f"   {saved[Severity.RED]} red, {saved[Severity.BLUE]} blue", "quiet"),
-        (f"   {lost} not reached in time" if lost else "", "quiet"),
+        (f"   {lost} died, not reached in time" if lost else "", "quiet"),
         ("   unseen victims are not shown" if len(story.revealed) < total else "", "quiet"),
     )
     if story.settings.show_score:
@@ -167,9 +170,10 @@ def result_rows(
 
 
 def way_rows(story: MissionStory, columns: int, *, filled: bool) -> list[Row]:
-    """The map with the way walked, and what its signs mean."""
+    """The map with the way walked, and what its signs mean, no wider than the map."""
     way = path_map(story, columns=columns, filled=filled)
-    return [*way, legend_row(story, filled=filled)]
+    across = max(map(width, way))
+    return [*way_legend(story, across, filled=filled), *way]
 
 
 def fitting_way(story: MissionStory, columns: int, rows: int, *, filled: bool) -> list[Row] | None:
@@ -202,8 +206,8 @@ def said_rows(story: MissionStory, columns: int) -> list[Row]:
     for said in story.said:
         at, level = f"{clock_text(said.at_ms):>5}  ", f"{_NAMES[said.level]}  "
         lines = wrapped(said.text, max(20, columns - len(at) - len(level)))
-        if said.notice:
-            rows.append(((at, "quiet"), (" " * len(level), ""), (said.notice, "notice")))
+        for line in wrapped(said.notice, max(20, columns - len(at) - len(level))):
+            rows.append(((at, "quiet"), (" " * len(level), ""), (line, "notice")))
             at = " " * len(at)
         for line in lines:
             rows.append(((at, "quiet"), (level, "quiet"), (line, "strong")))
@@ -225,8 +229,9 @@ def result_pages(
     left = rows - len(total_rows(story)) - len(remarks)
     if fitting_way(story, columns, left, filled=filled) is None:
         pages["Way"] = way_rows(story, columns, filled=filled)
-    pages["People"] = [BLANK, *fate_rows(story, columns)]
-    pages["Said"] = [BLANK, *said_rows(story, columns)]
+    narrow = columns - _SCROLLBAR_COLUMNS
+    pages["People"] = [BLANK, *fates_legend(story, narrow), BLANK, *fate_rows(story, narrow)]
+    pages["Said"] = [BLANK, *said_rows(story, narrow)]
     return pages
 
 
@@ -252,14 +257,14 @@ class ResultPage(Canvas):
 
 
 class PageNames(ClickCanvas):
-    """The names of the pages, of which one is shown, and as much of the end of the journal's path
-    as fits."""
+    """The names of the pages, of which one is shown, and where the journal is: its path, or only
+    the name of its folder where that does not fit."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {"item", "selected"}
 
     def __init__(self, journal: Path) -> None:
         super().__init__(id="page-names")
-        self._journal = str(journal)
+        self._places = shortened(journal), journal.parent.name
 
     def name_at(self, column: int) -> str | None:
         """The name of a page at a column."""
@@ -273,8 +278,8 @@ class PageNames(ClickCanvas):
             row += [(f" {name} ", "selected" if name == shown else "item"), (" ", "item")]
             self._ends[name] = width(tuple(row))
         room = self.size.width - width(tuple(row)) - 2
-        path = self._journal if len(self._journal) <= room else f"…{self._journal[1 - room :]}"
-        row.append((f"{path:>{max(0, room)}}", "item"))
+        place = next((it for it in self._places if cell_len(it) <= room), "")
+        row.append((f"{place:>{max(0, room)}}", "item"))
         self.draw([tuple(row)])
 
 
@@ -347,9 +352,10 @@ class ResultScreen(DeafAtFirst, Pointed, Screen[None]):
         self._show()
 
     def _remarks(self, columns: int) -> list[Row]:
-        reader = "" if self._literal is None else f"A literal reader rescues {self._literal}."
-        told = wrapped(f"{self._standing} {reader}".strip(), columns)
-        return [((line, "strong"),) for line in told or [""]]
+        obeying = f"Whoever does exactly as told rescues {self._literal}."
+        reader = "" if self._literal is None else obeying
+        lines = wrapped(f"{self._standing} {reader}".strip(), columns)
+        return [((line, "strong"),) for line in lines or [""]]
 
     def _pages(self) -> dict[str, list[Row]]:
         columns = max(20, self.size.width - _MARGIN_COLUMNS)

@@ -17,7 +17,7 @@ from game.screens.play.mission_story import coach_name
 from game.screens.widgets.canvas import BLANK, Canvas, Row, wrapped
 from game.screens.widgets.dialogs import Help
 from game.screens.widgets.glyphs import PLAIN, SOLID, STYLES, GlyphSet, Kind
-from game.screens.widgets.howto import HasKeys, red_time, walking_rows
+from game.screens.widgets.howto import HasKeys, example_of, red_time, walking_rows
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.keymap import USUAL_KEYS, KeyMap
 from game.screens.widgets.statuspanel import clock_text
@@ -26,8 +26,6 @@ from game.world.settings import MissionSettings
 
 WIDEST = 76
 """Columns of the card where the window has more."""
-_EXAMPLE = "Turn right. Walk forward 4 steps."
-_BAR_LINES = 3
 _COACHES = {
     "ana": "ana says more or less, as you seem lost or seem to know your way.",
     "knowledge": "knowledge says more or less, by which rooms you seem to know.",
@@ -51,9 +49,9 @@ def card_rows(
     reds = sum(site.severity is Severity.RED for site in building.victims)
     blues = len(building.victims) - reds
     time = clock_text(rules.duration_ms)
-    example = f"  {_EXAMPLE}"
     coach = _COACHES.get(coach_name(spec), "")
-    bar = f"The yellow bar at the top tells you where to go. {coach}"
+    bar = f"The yellow bar at the top tells you where to go. {coach}".strip()
+    example = example_of(spec.level or 1)
     return [
         ((building.name, "title"), (f"   {about}", "quiet")),
         ((f"{reds + blues} people are hurt. You have {time} to find and treat them.", "strong"),),
@@ -61,8 +59,8 @@ def card_rows(
         (glyphs[Kind.RED], (f"  {reds} red: dies unless treated {red_time(rules)}", "")),
         (glyphs[Kind.BLUE], (f"  {blues} blue: can wait until the end", "")),
         BLANK,
-        *(((f"{text:<{columns}}", "example"),) for text in ("", example, "")),
-        *(((line, ""),) for line in wrapped(bar.strip(), columns)),
+        *(((line, ""),) for line in wrapped(bar, columns)),
+        (("It may say, for example:  ", "quiet"), (f" {example} ", "example")),
         BLANK,
         *walking_rows(turning=rules.controls == "turn", keys=keys),
         (("  ", ""), (f" {keys.label('help'):^7} ", "key"), ("  help", "")),

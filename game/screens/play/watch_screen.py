@@ -44,6 +44,7 @@ class WatchScreen(LiveScreen):
     ) -> None:
         self._panel = CoachPanel(live.run.mission.building, coach.spec)
         super().__init__(live, journal)
+        self.view.status.deaths = True
         self._rescuer = rescuer
         self._who = who
         self._coach = coach

@@ -98,7 +98,8 @@ def status(now: Observation, rules: MissionSettings) -> list[str]:
     reds = min(rules.reds_expire_ms, rules.duration_ms) - now.time_ms
     points = "" if now.score is None else f", {counted(now.score, 'point')}"
     lines = [f"{clock_words(now.time_left_ms)} left."]
-    lines.append(f"{clock_words(reds)} left for red victims." if reds > 0 else "Red victims: over.")
+    died = f"{counted(now.lost, 'red victim')} died."
+    lines.append(f"{clock_words(reds)} left for red victims." if reds > 0 else died)
     lines.append(f"{now.rescued} rescued{points}.")
     lines.append(f"You face {now.heading.name.lower()}.")
     return lines

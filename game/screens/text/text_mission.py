@@ -322,7 +322,7 @@ class TextMission:
                 points = "" if now.score is None else f", {counted(now.score, 'point')}"
                 return f"Rescued. That makes {now.rescued} rescued{points}."
             case Expired():
-                return "Time is up for red victims who were not treated."
+                return f"Time is up for red victims: {counted(now.lost, 'red victim')} died."
             case _:
                 return ""
 

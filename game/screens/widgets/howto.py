@@ -95,6 +95,11 @@ def sign_rows(glyphs: GlyphSet, rules: MissionSettings, words: MissionWords = EN
     ]
 
 
+def example_of(level: int) -> str:
+    """What a coach may say at a level, 1 to 3."""
+    return _LEVELS[level - 1][2]
+
+
 def red_time(rules: MissionSettings, words: MissionWords = ENGLISH) -> str:
     """By when a red victim must be treated."""
     if 2 * rules.reds_expire_ms == rules.duration_ms:

@@ -28,15 +28,17 @@ def status_rows(
     columns: int,
     *,
     timed: bool = True,
+    deaths: bool = False,
     words: MissionWords = ENGLISH,
 ) -> list[Row]:
-    """The panel's lines, `columns` wide; the clock is blank where time does not matter."""
+    """The panel's lines, `columns` wide; the clock is blank where time does not matter. `deaths`
+    says how many red victims died, in English, rather than that their time is over."""
     panel = words.panel
     return [
         _clock(observation, panel) if timed else BLANK,
         _time_bar(observation, settings, columns) if timed else BLANK,
         _counts(observation, panel),
-        _reds(observation, settings, panel) if timed else BLANK,
+        _reds(observation, settings, panel, deaths=deaths) if timed else BLANK,
         _facing(observation, words),
         _doing(observation, columns, words),
     ]
@@ -70,9 +72,14 @@ def _counts(observation: Observation, panel: Panel) -> Row:
     return (*rescued, (f"  {points}", "quiet"))
 
 
-def _reds(observation: Observation, settings: MissionSettings, panel: Panel) -> Row:
+def _reds(
+    observation: Observation, settings: MissionSettings, panel: Panel, *, deaths: bool
+) -> Row:
     left = min(settings.reds_expire_ms, settings.duration_ms) - observation.time_ms
     red = SOLID[victim_kind(Severity.RED, VictimState.WAITING)].text
+    if left <= 0 and deaths:
+        lost = observation.lost
+        return (red, "seen-red"), (f" {lost or 'none'} died", "strong" if lost else "quiet")
     if left <= 0:
         return (red, "seen-red"), (f" {panel.out_of_time}", "faint")
     style = "hurry" if left <= HURRY_MS else "quiet"
@@ -140,6 +147,7 @@ class StatusPanel(Canvas):
     def __init__(self, settings: MissionSettings, words: MissionWords = ENGLISH) -> None:
         super().__init__(id="status")
         self.timed = True
+        self.deaths = False
         self._settings = settings
         self._words = words
         self._observation: Observation | None = None
@@ -148,7 +156,12 @@ class StatusPanel(Canvas):
         """Draw the numbers of now."""
         self._observation = observation
         rows = status_rows(
-            observation, self._settings, self.size.width, timed=self.timed, words=self._words
+            observation,
+            self._settings,
+            self.size.width,
+            timed=self.timed,
+            deaths=self.deaths,
+            words=self._words,
         )
         if self.size.height == 1:
             rows = [(*rows[0], ("   ", "quiet"), *rows[2])]

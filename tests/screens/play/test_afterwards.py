@@ -130,12 +130,12 @@ async def test_beside_a_coach_that_infers_nothing_nothing_is_awaited(
     static = write_two_missions(tmp_path, ward)
     async with open_app(lambda app: app.replay(static)) as (_, pilot):
         replay = await until(pilot, ReplayScreen)
-        assert "does not use P(g*)" in shown(replay) and "Walking to" not in shown(replay)
+        assert "does not judge the walk" in shown(replay) and "Walking to" not in shown(replay)
     (tmp_path / "ana").mkdir()
     adaptive = write_two_missions(tmp_path / "ana", ward, parse_coach("ana"))
     async with open_app(lambda app: app.replay(adaptive)) as (_, pilot):
         replay = await until(pilot, ReplayScreen)
-        assert "P(g*) not known yet" in shown(replay) and "Walking to" in shown(replay)
+        assert "has not judged the walk" in shown(replay) and "Walking to" in shown(replay)
 
 
 @pytest.mark.parametrize("columns", [26, 50])

@@ -10,8 +10,8 @@ import pytest
 from game.coach.spec import parse_coach
 from game.journal.reader import read_journal
 from game.screens.play.mission_story import MissionStory, tell
-from game.screens.play.pathmap import legend_row, path_map
-from game.screens.widgets.canvas import Row, plain
+from game.screens.play.pathmap import path_map, way_legend
+from game.screens.widgets.canvas import Row, plain, width
 from game.screens.widgets.minimap import DOOR_SIGN, HALF_BLOCKS, QUARTER_BLOCKS, SmallMap
 from game.session.playing import end_free_play, start_in_memory
 from game.session.replay import Replay
@@ -87,7 +87,12 @@ def test_the_way_is_drawn_from_its_beginning_to_its_end(
     walked = [cell for cell in story.path if HARBOUR.plan.tile(cell) is Tile.FLOOR]
     trail = [cell for cell in walked if "trail" in at(cell)[1]]
     assert len(trail) > len(walked) * (0.8 if filled else 0.3)
-    assert "where you finished" in plain([legend_row(story, filled=True)])[0]
+    for across in (48, WIDE):
+        legend = way_legend(story, across, filled=filled)
+        assert all(width(row) <= across for row in legend)
+        told = " ".join(plain(legend))
+        for words in ("▲ start", "■ end", "your way 0:00", "4:00"):
+            assert words in told
 
 
 @pytest.mark.parametrize("filled", [True, False])

@@ -14,16 +14,23 @@ from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.journal.records import Paused
 from game.screens.play.app import AnaApp, PlayOptions
-from game.screens.play.free_play_screen import Gloss, glossed, mission_keys
+from game.screens.play.free_play_screen import (
+    DIED_MS,
+    Gloss,
+    deaths_told,
+    glossed,
+    mission_keys,
+)
 from game.screens.play.home import BUILDINGS, HomeScreen, menu_items
 from game.screens.play.map_screen import MapScreen
 from game.screens.play.menu import menu_rows
 from game.screens.play.mission_screen import MissionScreen
 from game.screens.play.start_screen import StartScreen
-from game.screens.widgets.canvas import width
+from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Help, TooSmall
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.preferences import Preferences
+from game.screens.widgets.statuspanel import status_rows
 from game.session.playing import start_in_memory
 from game.world import load_building
 from game.world.building import Building
@@ -257,3 +264,39 @@ def test_every_choice_fits_the_smallest_window() -> None:
         items = menu_items(chosen, "best 19, last time 17", "123456789")
         rows = menu_rows(items, 0)
         assert len(rows) <= 24 - 6 and all(width(row) <= 80 for row in rows)
+
+
+async def test_the_deaths_of_red_victims_are_told_and_counted(open_app: Open) -> None:
+    async with open_app(duration_ms=60_000, red_expiry_ms=300, show_score=True) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        for _ in range(200):
+            if "died" in shown(mission):
+                break
+            await asyncio.sleep(0.02)
+        assert "Time is up for red victims: 2 died." in shown(mission)
+        assert "2 died" in " ".join(plain(mission.view.status.rows))
+        later = replace(mission.live.observation(), time_ms=300 + DIED_MS)
+        mission.show(later)
+        assert "red victims:" not in shown(mission) and "2 died" in shown(mission)
+
+
+def test_nobody_is_said_to_have_died_where_all_reds_were_reached(ward: Building) -> None:
+    rules = MissionSettings(duration_ms=60_000, red_expiry_ms=300)
+    run, _ = start_in_memory(ward, rules, parse_coach("static", 1), 1, rescuer="literal")
+    before = run.observation()
+    assert deaths_told(before, rules) is before
+    run.advance(400)
+    after = run.observation()
+    assert deaths_told(after, rules).guidance != after.guidance
+    saved = replace(after, lost=0)
+    assert deaths_told(saved, rules) is saved
+    assert plain(status_rows(saved, rules, 26, deaths=True))[3].endswith("none died")
+    assert plain(status_rows(after, rules, 26))[3].endswith("out of time"), "as in a study"
+
+
+async def test_what_the_level_key_asked_for_covers_nothing(open_app: Open) -> None:
+    async with open_app(level_key=True) as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        await press(pilot, "plus")
+        assert mission.asked_words("simpler") in " ".join(plain(mission.query_one(KeyLine).rows))
+        assert not mission.app._notifications, "no toast over the small map"
