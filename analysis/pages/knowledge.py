@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from analysis.pages.sentences import time_words
 from analysis.pages.style import (
     GROUP_COLOURS,
     INK,
@@ -41,7 +42,7 @@ def knowledge_figure(study: StudyData, clustering: Clustering | Absent) -> Capti
                 label=list(KNOWLEDGE),
                 rwidth=0.85,
             )
-            axes.set_title(f"{minutes:g} min to memorise (n = {len(own)})")
+            axes.set_title(f"{time_words(minutes)} to memorise (n = {len(own)})")
             axes.set_ylabel("people")
             if not isinstance(clustering, Absent):
                 for cut in clustering.boundaries:

@@ -37,6 +37,16 @@ def bounded_interval(low: float | None, high: float | None, digits: int = 2) -> 
     return f"[{bounded(low, digits)}, {bounded(high, digits)}]"
 
 
+def time_words(minutes: float) -> str:
+    """A memorise time: "3 min" or "1.5 min", and "20 s" where it is no half of a minute."""
+    return f"{minutes:g} min" if minutes * 2 == int(minutes * 2) else f"{minutes * 60:.0f} s"
+
+
+def degrees(df1: int, df2: float | None) -> str:
+    """Degrees of freedom of an F test: "2, 101.4"."""
+    return DASH if df2 is None else f"{df1}, {decimal(df2, 1)}"
+
+
 def p_phrase(p: float | None) -> str:
     """ "*p* = .021" or "*p* < .001"."""
     return f"*p* {equals(p_value(p))}"

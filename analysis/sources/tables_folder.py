@@ -5,20 +5,26 @@ import gzip
 import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
 import pandas as pd
 
 from analysis.sources.absent import SourceError
+from analysis.sources.designs import PAPER_DESIGN, Crossed
 from analysis.sources.recorded import ANALYSED, Recorded, recorded, typed
 from game.forms.form import Forms
 from game.forms.reading import paper_forms
 from game.tables.columns import cell, columns
 from game.tables.session_tables import row_types
 
+Kind = TypeVar("Kind")
+
 ENDING = ".csv.gz"
 ASKED = "forms.json"
 """The study's forms, where they are not the paper's."""
+DESIGN = "design.json"
+"""What the study crosses, and its primary outcomes, where settings say so."""
 
 
 def write_tables(study: Recorded, folder: Path) -> list[Path]:
@@ -33,6 +39,9 @@ def write_tables(study: Recorded, folder: Path) -> list[Path]:
     if study.forms != paper_forms():
         (folder / ASKED).write_bytes(msgspec.json.format(msgspec.json.encode(study.forms)))
         paths.append(folder / ASKED)
+    if study.crossed != PAPER_DESIGN:
+        (folder / DESIGN).write_bytes(msgspec.json.format(msgspec.json.encode(study.crossed)))
+        paths.append(folder / DESIGN)
     return paths
 
 
@@ -59,18 +68,20 @@ def read_tables(folder: Path) -> Recorded:
 
     Raises SourceError, naming the file, for a table that is missing or holds something else.
     """
-    forms = _forms(folder / ASKED)
+    forms = _said(folder / ASKED, Forms, "forms") or paper_forms()
+    crossed = _said(folder / DESIGN, Crossed, "design") or PAPER_DESIGN
     frames = {name: _read_table(folder / f"{name}{ENDING}", name, forms) for name in ANALYSED}
-    return recorded(frames, folder.resolve().name, forms=forms)
+    return recorded(frames, folder.resolve().name, forms=forms, crossed=crossed)
 
 
-def _forms(path: Path) -> Forms:
+def _said(path: Path, kind: type[Kind], what: str) -> Kind | None:
+    """What stands in a file beside the tables; None where there is none."""
     try:
-        return msgspec.json.decode(path.read_bytes(), type=Forms)
+        return msgspec.json.decode(path.read_bytes(), type=kind)
     except FileNotFoundError:
-        return paper_forms()
+        return None
     except (OSError, msgspec.MsgspecError) as error:
-        raise SourceError(f"the forms cannot be read ({error})", place=str(path)) from error
+        raise SourceError(f"the {what} cannot be read ({error})", place=str(path)) from error
 
 
 def _read_table(path: Path, name: str, forms: Forms) -> pd.DataFrame:

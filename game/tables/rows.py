@@ -51,7 +51,8 @@ _Heading = Annotated[HeadingName, col("The direction the rescuer faced at that t
 
 _Complexity = Annotated[LevelName, col("The level of the static instructor, fixed by allocation.")]
 _Order = Annotated[OrderName, col("Which instructor came first.")]
-_MemoriseMinutes = Annotated[float, col("How long each map was shown, as allocated.", "min")]
+_MEMORISED = col("How long each map was shown, as allocated, to three decimals.", "min")
+_MemoriseMinutes = Annotated[float, _MEMORISED]
 _MemoriseMs = Annotated[int, col("How long each map was shown, as allocated.", "ms")]
 _Disobeyed = Annotated[int, col("Disobeyed instructions in both missions, of either kind.")]
 _RepeatMisstep = Annotated[
@@ -95,9 +96,7 @@ class ParticipantRow(TableRow, frozen=True):
         LevelName | None, col("The level of the static instructor, fixed by allocation.")
     ]
     order: Annotated[OrderName | None, col("Which instructor came first.")]
-    memorise_minutes: Annotated[
-        float | None, col("How long each map was shown, as allocated.", "min")
-    ]
+    memorise_minutes: Annotated[float | None, _MEMORISED]
     first_building: Annotated[str | None, col("The building of the first round.")]
     second_building: Annotated[str | None, col("The building of the second round.")]
     quiz_static: Annotated[

@@ -222,7 +222,7 @@ class _Session:
             refill=allocated.refill if allocated else None,
             complexity=level_name(allocated.static_level) if allocated else None,
             order=_order(allocated) if allocated else None,
-            memorise_minutes=allocated.memorise_ms / MS_PER_MINUTE if allocated else None,
+            memorise_minutes=minutes_of(allocated.memorise_ms) if allocated else None,
             first_building=allocated.buildings[0] if allocated else None,
             second_building=allocated.buildings[1] if allocated and two else None,
             quiz_static=self.quiz_before("static"),
@@ -286,7 +286,7 @@ class _Session:
                 "adaptivity": self.adaptivity(round_),
                 "complexity": level_name(allocated.static_level),
                 "order": _order(allocated),
-                "memorise_minutes": allocated.memorise_ms / MS_PER_MINUTE,
+                "memorise_minutes": minutes_of(allocated.memorise_ms),
                 "memorise_ms": allocated.memorise_ms,
                 "building": allocated.buildings[round_ - 1],
                 "quiz": quiz.right / quiz.asked if quiz else None,
@@ -384,6 +384,11 @@ class _Session:
         for (step, _), text in self.history.words.items():
             if text.answer:
                 yield FreeTextRow.of(text, **self.person, **step._asdict())
+
+
+def minutes_of(ms: int) -> float:
+    """Milliseconds as minutes, as tables have them: to three decimals."""
+    return round(ms / MS_PER_MINUTE, 3)
 
 
 def _order(allocated: Allocated) -> OrderName:

@@ -15,12 +15,12 @@ from msgspec.structs import replace
 from game.commands.ana_study import study_group
 from game.journal.folders import JOURNAL
 from game.journal.reader import read_journal
-from game.screens.lab.status_screen import status_rows
+from game.screens.lab.status_screen import NOTHING, status_rows
 from game.study.design import design_cell
 from game.study.folder import Identity, Study, StudyError, open_study
 from game.study.lab.attendance import Attendance, SessionStatus
 from game.study.lab.leaving import drop_out, withdraw
-from game.study.lab.status_text import age, page
+from game.study.lab.status_text import age, page, session_cells
 from game.study.lab.study_status import StatusReader, breakdown
 from game.study.ledger import NoPlace, Unblinded
 from game.study.lock import LOCK, SessionLock
@@ -98,6 +98,21 @@ def test_pilots_and_simulated_people_are_counted_and_are_no_problem(study: Study
     wrapped = narrow[: next(n for n, (text, _) in enumerate(narrow) if "participant" in text)]
     assert max(len(text) for text, _ in wrapped) < 60
     assert any("dropped out 0" in text for text, _ in wrapped)
+
+
+@pytest.mark.parametrize("columns", [120, 80, 60, 40])
+def test_a_narrow_screen_cuts_nothing(columns: int, study: Study) -> None:
+    who = Identity("live", "K7QX-a-long-name-of-somebody")
+    cut_off(study, who, at="label", since="look")
+    take_part(study, P01)
+    now = replace(StatusReader(study.folder).look(), hindrances=())
+    told = [text for row in status_rows(now, columns) for text, _ in row]
+    assert max(map(len, told)) <= columns
+    words = " ".join(" ".join(told).split())
+    for session in now.sessions:
+        for cell in session_cells(session):
+            assert cell in words or cell in NOTHING
+    assert words.count("interrupted") == 1
 
 
 def test_a_session_whose_process_lives_takes_part(study: Study) -> None:

@@ -38,6 +38,7 @@ from game.tables.session_tables import (
     ROW_TYPES,
     Tables,
     combined,
+    minutes_of,
     session_tables,
 )
 from game.world.events import Acted
@@ -134,6 +135,11 @@ def first_round(*, mission_ending: str = "completed") -> Written:
     written.journal.enter("likert", 1)
     written.write(*(answer(item, place + 1) for place, item in enumerate(LIKERT_ITEMS)))
     return written
+
+
+@pytest.mark.parametrize(("ms", "minutes"), [(60_000, 1.0), (20_000, 0.333), (90_000, 1.5)])
+def test_memorise_times_are_written_in_readable_minutes(ms: int, minutes: float) -> None:
+    assert minutes_of(ms) == minutes
 
 
 def test_a_round_has_the_outcomes_of_its_mission_and_its_last_answers() -> None:

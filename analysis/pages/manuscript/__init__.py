@@ -16,6 +16,7 @@ from analysis.pages.manuscript.participants import participants
 from analysis.pages.manuscript.performance import performance
 from analysis.pages.manuscript.preference import preference
 from analysis.pages.manuscript.primary import primary
+from analysis.pages.manuscript.rounds import rounds
 from analysis.pages.style import SIMULATED, Captioned
 from analysis.sources.absent import Absent, attempt
 from analysis.sources.frames import StudyData
@@ -25,7 +26,7 @@ __all__ = ["PARTS", "PRINTED", "Found", "Section", "figures_in", "manuscript", "
 Parts = tuple[Callable[[Found], Part], ...]
 PRINTED: Parts = (measures, participants, mental_states, performance, adaptivity)
 """The parts for which the paper prints numbers."""
-PARTS: Parts = (measures, participants, primary, *PRINTED[2:], levels, preference, beyond)
+PARTS: Parts = (measures, participants, primary, *PRINTED[2:], rounds, levels, preference, beyond)
 
 
 @dataclass(frozen=True)
@@ -46,11 +47,14 @@ class Section:
 
 
 def manuscript(found: Found, parts: Parts = PARTS) -> list[Section]:
-    """The sections in the paper's order, their tables numbered through."""
+    """The sections in the paper's order, their tables numbered through; a part about which there is
+    nothing to say is none."""
     sections = []
     number = 0
     for make in parts:
         part = make(found)
+        if not (part.sentences or part.tables or part.drawings):
+            continue
         mapping = found.study.crossed.mapping
         sentences = [*([f"In this section {mapping}."] if mapping else []), *part.sentences]
         numbered = []

@@ -10,7 +10,7 @@ from analysis.pages.choices import (
     trimmed_table,
 )
 from analysis.pages.manuscript.part import Drawing, Found, Numbers, Part, drawing
-from analysis.pages.sentences import EFFECT_WORDS, factor, interval, paired_sentence
+from analysis.pages.sentences import EFFECT_WORDS, degrees, factor, interval, paired_sentence
 from analysis.sources.absent import Absent, Row, attempt
 from analysis.stats.apa import DASH, bounded, decimal, p_value, share
 from analysis.stats.level import percent
@@ -100,8 +100,8 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
             "Mixed models of every answered round",
             ("Outcome", "Effect", "*F*", "*df*", "*p*", "*F* KR", "*df* KR", "*p* KR"),
             tuple(
-                (outcome, row["effect"], decimal(row["F"]), _dfs(row["df1"], row["df2"]),
-                 p_value(row["p"]), decimal(row["F_kr"]), _dfs(row["df1"], row["df2_kr"]),
+                (outcome, row["effect"], decimal(row["F"]), degrees(row["df1"], row["df2"]),
+                 p_value(row["p"]), decimal(row["F_kr"]), degrees(row["df1"], row["df2_kr"]),
                  p_value(row["p_kr"]))
                 for outcome in study.outcomes
                 for row in (found.own(outcome)["lmm"] or {}).get("anova") or ()
@@ -153,10 +153,6 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
         return tables, []
     shown = drawing(specification_figure, specifications, simulated=study.simulated, alpha=alpha)
     return tables, [shown]
-
-
-def _dfs(df1: int, df2: float | None) -> str:
-    return DASH if df2 is None else f"{df1}, {decimal(df2, 1)}"
 
 
 def _numbers(row: Row) -> Numbers:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
+from itertools import accumulate
 from pathlib import Path, PurePath
 from typing import ClassVar
 
@@ -28,6 +30,9 @@ from game.study.lab.status_text import (
 from game.study.lab.study_status import StatusReader, StudyStatus
 
 EVERY_S = 1.0
+GAP = 2
+NOTHING = ("-", "0")
+"""Cells that tell nothing."""
 
 _STYLES = {
     "taking part": "going",
@@ -40,8 +45,8 @@ _STYLES = {
 
 
 def status_rows(status: StudyStatus, columns: int = 120) -> list[Row]:
-    """The screen's lines: the study, its totals, a line a session, and what is wrong. All but the
-    sessions are wrapped to so many columns."""
+    """The screen's lines, none wider than so many columns: the study, its totals, a line a session
+    and below it what has no room there, and what is wrong."""
 
     def told(style: str, *lines: str) -> list[Row]:
         return [((f" {part}", style),) for line in lines for part in wrapped(line, columns - 2)]
@@ -56,11 +61,11 @@ def status_rows(status: StudyStatus, columns: int = 120) -> list[Row]:
         return rows
     cells = [session_cells(session) for session in status.sessions]
     widths = [max(map(len, column)) for column in zip(HEADER, *cells, strict=True)]
-    rows.append((_line(HEADER, widths, "quiet"),))
-    rows += [
-        (_line(line, widths, _style(session)),)
-        for line, session in zip(cells, status.sessions, strict=True)
-    ]
+    shown = _shown(widths, columns)
+    rows.append((_line(HEADER, widths[:shown], "quiet"),))
+    for line, session in zip(cells, status.sessions, strict=True):
+        rows.append((_line(line, widths[:shown], _style(session)),))
+        rows += [((f"   {part}", _style(session)),) for part in _below(line, shown, columns - 4)]
     if status.problems:
         rows += [BLANK, ((" Look at:", "title"),)]
         rows += told("trouble", *status.problems)
@@ -69,9 +74,21 @@ def status_rows(status: StudyStatus, columns: int = 120) -> list[Row]:
     return rows
 
 
-def _line(cells: tuple[str, ...], widths: list[int], style: str) -> tuple[str, str]:
-    padded = (text.ljust(width) for text, width in zip(cells, widths, strict=True))
-    return f" {'  '.join(padded)}", style
+def _shown(widths: Sequence[int], columns: int) -> int:
+    """How many of the table's columns have room beside each other."""
+    ends = [end + GAP * number for number, end in enumerate(accumulate(widths), start=1)]
+    return sum(end < columns for end in ends) or 1
+
+
+def _below(cells: Sequence[str], shown: int, columns: int) -> list[str]:
+    """What is to be told of a session beyond the columns that are shown, with its column's name."""
+    rest = zip(HEADER[shown:], cells[shown:], strict=True)
+    return wrapped(", ".join(f"{name} {it}" for name, it in rest if it not in NOTHING), columns)
+
+
+def _line(cells: Sequence[str], widths: Sequence[int], style: str) -> tuple[str, str]:
+    padded = (text.ljust(width) for text, width in zip(cells, widths, strict=False))
+    return f" {(' ' * GAP).join(padded)}", style
 
 
 def _style(session: SessionStatus) -> str:

@@ -20,6 +20,7 @@ from game.screens.study.answering import STEP, keys_for, moved, too_long, within
 from game.screens.study.base import Frame, StudyScreen, TextColumn
 from game.screens.study.question_rows import AnswerLook
 from game.screens.study.questions import Questions
+from game.screens.study.standing_head import StandingHead
 from game.screens.widgets.keyline import KeyLine
 from game.study.protocol.tasks import Sheet
 from game.study.texts import Page
@@ -41,7 +42,9 @@ class FormScreen(StudyScreen[bool]):
         self._questions = Questions()
         self._column = TextColumn(page, self._questions, wide=True)
         self._column.can_focus = False
-        super().__init__(frame, [self._column, KeyLine(id="keys")])
+        self._head = StandingHead()
+        super().__init__(frame, [self._head, self._column, KeyLine(id="keys")])
+        self._title = page.title
         self.sheet = sheet
         self._active = sheet.asked[0].id
         self._met = {self._active}
@@ -54,6 +57,7 @@ class FormScreen(StudyScreen[bool]):
     def on_mount(self) -> None:
         self.sheet.begin()
         self._begin_writing()
+        self.watch(self._column, "scroll_y", self._say_head)
         self.call_after_refresh(self._fit)
 
     def on_resize(self) -> None:
@@ -123,6 +127,14 @@ class FormScreen(StudyScreen[bool]):
             self.show_keys(*keys, turn, remark=left)
         else:
             self.show_keys(*keys[:1], turn, (self.frame.keys.enter, words.go_on))
+
+    def _say_head(self) -> None:
+        """Keep in sight what has scrolled away of the form's title, and of the heading over what is
+        at the top."""
+        top = self._column.rows_in_view.start
+        over = [text for text, rows in self._questions.headings
+                if self._column.span(self._questions, rows).start < top]  # fmt: skip
+        self._head.say(self._title if top > 0 else "", over[-1] if over else "")
 
     def _look(self, question: AnyQuestion) -> AnswerLook:
         here = question.id == self.asked.id

@@ -22,14 +22,18 @@ class Questions(Canvas):
         super().__init__()
         self.spans: dict[str, range] = {}
         """The rows of each question that is shown."""
+        self.headings: list[tuple[str, range]] = []
+        """Each heading with its rows, from the top."""
 
     def show(self, items: Sequence[Item], looks: dict[str, AnswerLook]) -> None:
         """Draw the items, and each question as it looks."""
         rows: list[Row] = []
-        self.spans = {}
+        self.spans, self.headings = {}, []
         for item in items:
             if isinstance(item, HeadingItem):
-                rows += [*item_rows(item, AnswerLook(), self.size.width), BLANK]
+                head = item_rows(item, AnswerLook(), self.size.width)
+                self.headings.append((item.text, range(len(rows), len(rows) + len(head))))
+                rows += [*head, BLANK]
                 continue
             block = item_rows(item, looks[item.id], self.size.width)
             self.spans[item.id] = range(len(rows), len(rows) + len(block))

@@ -43,6 +43,8 @@ def test_it_holds_what_the_study_folder_holds(exported: tuple[Path, Path], tmp_p
     write_tables(read, tmp_path / "tables")
     again = load_recorded(tmp_path / "tables")
     assert again.forms == direct.forms
+    assert again.crossed == direct.crossed
+    assert again.crossed.primary is not None
     for name in ANALYSED:
         pd.testing.assert_frame_equal(direct.frame(name), again.frame(name))
 

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -12,12 +13,13 @@ from hypothesis import strategies as st
 from analysis.pages.flow import flow_rows
 from analysis.pages.what_if import judged_missions, shares, stretches
 from analysis.sources.absent import SourceError
+from analysis.sources.designs import Crossed, Primary
 from analysis.sources.frames import both_rounds
 from analysis.sources.recorded import ANALYSED, Recorded
 from analysis.sources.samples import left_by
 from analysis.sources.source import load, load_recorded
 from analysis.sources.study_folder import read_study_folder
-from analysis.sources.tables_folder import read_tables, write_tables
+from analysis.sources.tables_folder import DESIGN, read_tables, write_tables
 from analysis.stats.groups import grouped
 from game.errors import AnaError
 from game.journal.journal_error import JournalError
@@ -77,6 +79,17 @@ def test_written_tables_read_back_the_same(recorded: Recorded, tmp_path: Path) -
         pd.testing.assert_frame_equal(recorded.frame(name), again.frame(name))
     for path, other in zip(paths, write_tables(again, tmp_path / "two"), strict=True):
         assert path.read_bytes() == other.read_bytes()
+
+
+def test_tables_carry_their_design(recorded: Recorded, tmp_path: Path) -> None:
+    crossed = Crossed(("ana", "yoked"), ("C2",), 3, primary=Primary(("victims",), "holm"))
+    write_tables(replace(recorded, crossed=crossed), tmp_path)
+    again = read_tables(tmp_path)
+    assert again.crossed == crossed
+    assert set(crossed.notes(again.forms)) <= set(again.notes)
+    (tmp_path / DESIGN).write_text('{"rounds": "three"}')
+    with pytest.raises(SourceError, match=r"design\.json.*the design cannot be read"):
+        read_tables(tmp_path)
 
 
 def test_a_table_of_something_else_is_named(recorded: Recorded, tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """The mixed model over more than two rounds, against statsmodels, and where it cannot be had."""
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -9,6 +10,9 @@ import pytest
 import statsmodels.formula.api as smf
 
 from analysis.battery import run_battery
+from analysis.pages.manuscript.part import Found, Part
+from analysis.pages.manuscript.rounds import TITLE, rounds
+from analysis.pages.published import PUBLISHED
 from analysis.pages.rounds_figure import every_round
 from analysis.sources.absent import Refusal
 from analysis.sources.frames import StudyData
@@ -82,9 +86,22 @@ def test_two_rounds_have_none_of_it(study: StudyData) -> None:
         rounds_rows(study, "victims")
     with pytest.raises(Refusal):
         every_round(study)
+    assert rounds(Found({}, study, study, None, PUBLISHED)) == Part(TITLE, [], [], [])
 
 
 def test_it_is_told_and_drawn(three_rounds: StudyData) -> None:
     result = run_battery(three_rounds, read_rules())
     assert "mixed model over all rounds: adaptivity F(1, " in result.table()
-    assert every_round(result.study).name == "rounds"
+    numbers = json.loads(result.to_json())
+    part = rounds(Found(numbers, result.study, three_rounds, None, PUBLISHED))
+    means, models = part.tables
+    told = numbers["outcomes"]["victims"]["rounds"]
+    assert means.rows[: len(told["means"])] == tuple(
+        ("victims", str(row["round"]), row["adaptivity"], str(row["n"]), f"{row['mean']:.2f}",
+         f"{row['sd']:.2f}")
+        for row in told["means"]
+    )  # fmt: skip
+    effects = [row["effect"] for row in told["lmm"]["anova"]]
+    assert {"adaptivity", "round", "building"} <= set(effects)
+    assert [row[1] for row in models.rows if row[0] == "victims"] == effects
+    assert [draw().name for draw in part.drawings] == ["rounds"]

@@ -11,13 +11,14 @@ import pytest
 from rich.cells import cell_len
 from textual.pilot import Pilot
 
-from game.forms.items import ScaleItem, SliderItem
+from game.forms.items import HeadingItem, ScaleItem, SliderItem
 from game.journal.history import History, Step
 from game.journal.records import Envelope, QuestionnaireAnswer
 from game.screens.study.base import Frame
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
 from game.screens.study.rehearsal import Make, Showing, painted
+from game.screens.study.standing_head import MORE
 from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
 from game.study.protocol.tasks import Sheet
@@ -80,7 +81,10 @@ def scales(count: int) -> tuple[ScaleItem, ...]:
 async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
     app = Showing(LOOK)
     async with app.run_test(size=(columns, rows)) as pilot, app.opened(make) as screen:
-        await pilot.pause(1.1)
+        if screen.DEAF_S:
+            await pilot.pause(screen.DEAF_S + 0.1)
+        else:
+            await pilot.pause()
         yield pilot, screen
 
 
@@ -133,6 +137,28 @@ async def test_every_statement_is_in_view_when_it_is_answered() -> None:
             await pilot.press("down")
         await pilot.press("down", "down")
         assert screen.asked.id == "item11"
+
+
+@pytest.mark.usefixtures("hearing")
+async def test_what_a_question_is_about_stays_in_sight() -> None:
+    session, frame = Session(), Frame(ScreenSize(columns=80, rows=24), WORDS)
+    long = "Now think of all of it. " * 8
+    items = (HeadingItem(text="The way"), *sliders(5, ("low", "high")),
+             HeadingItem(text=long), *scales(9)[5:])  # fmt: skip
+    sheet = Sheet(cast(StudySession, session), items)
+    async with at(lambda: FormScreen(frame, PAGE, sheet), 80, 24) as (pilot, screen):
+        seen = [painted(pilot.app)]
+        for _ in sheet.asked[1:]:
+            await pilot.press("down")
+            await pilot.pause()
+            seen.append(painted(pilot.app))
+    first, later, last = seen[0], seen[3], seen[-1]
+    assert [line.strip() for line in first[:4]] == ["", "", "", PAGE.title]
+    assert [line.strip() for line in later[:3]] == [PAGE.title, "The way", ""]
+    assert last[1].strip().endswith(MORE)
+    assert long.startswith(last[1].strip().removesuffix(MORE))
+    for view in seen:
+        assert sum(line.strip() == PAGE.title for line in view) == 1
 
 
 async def test_digits_belong_together_for_a_while_and_each_is_recorded() -> None:
