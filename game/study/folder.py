@@ -273,6 +273,7 @@ def new_study(
                 ending = ".txt" if translation else ""
                 names = {role: name + ending for role, name in _BUILDINGS.items()}
                 text = text.format(seed=seed, blocks=blocks, **chosen, **names)
+                text = translation.named(text) if translation else text
             _write_new(folder / name, text)
         _write_new(folder / INSTRUCTIONS, english().text)
         if translation is not None:

@@ -41,7 +41,6 @@ class Choice(Canvas):
         self.chosen: int | None = None
         self.spans: list[range] = []
         """The rows of each option."""
-        self._draw()
 
     def choose(self, number: int) -> None:
         """Mark option `number`, from 0."""
@@ -56,17 +55,22 @@ class Choice(Canvas):
         if after >= 0:
             self.choose(after)
 
-    def on_resize(self) -> None:
-        self._draw()
+    def get_content_height(self, container: object, viewport: object, width: int) -> int:
+        self._fill(self._wrapped(width))
+        return super().get_content_height(container, viewport, width)
 
     def _draw(self) -> None:
+        self.draw(self._wrapped(self.size.width))
+
+    def _wrapped(self, columns: int) -> list[Row]:
+        """The options, so wide; where each of them stands is noted."""
         rows: list[Row] = []
         self.spans = []
         for number, option in enumerate(self.options):
-            block = option_rows(option, number == self.chosen, self.size.width)
+            block = option_rows(option, number == self.chosen, columns)
             self.spans.append(range(len(rows), len(rows) + len(block)))
             rows += [*block, BLANK]
-        self.draw(rows[:-1])
+        return rows[:-1]
 
 
 class ChoiceScreen(StudyScreen[int]):

@@ -38,4 +38,6 @@ class Questions(Canvas):
             block = item_rows(item, looks[item.id], self.size.width)
             self.spans[item.id] = range(len(rows), len(rows) + len(block))
             rows += [*block, BLANK, BLANK]
+        while rows and not rows[-1]:
+            rows.pop()
         self.draw(rows)

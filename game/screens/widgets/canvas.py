@@ -167,6 +167,12 @@ class Canvas(Widget):
         if changed:
             self.refresh(*changed)
 
+    def _fill(self, rows: Sequence[Row]) -> None:
+        """Have these rows when it is next painted: for a layout that gives it another size."""
+        if self._rows != rows:
+            self._rows = list(rows)
+            self._strips.clear()
+
     def get_content_height(self, container: object, viewport: object, width: int) -> int:
         return len(self._rows)
 

@@ -1,7 +1,7 @@
 """The languages that a new study can begin with: English, and one folder for each translation.
 
-A folder holds the texts, the questions and the instructions, as a study folder does, and
-`rooms.toml`: the names of the shipped buildings' rooms.
+A folder holds the texts, the questions and the instructions, as a study folder does, in
+`study.toml` the name of the study alone, and in `rooms.toml` those of the shipped buildings' rooms.
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from game.world import load_building
 
 ENGLISH = "en"
 ROOMS = "rooms.toml"
+SETTINGS = "study.toml"
 _HERE = resources.files("game.study.languages")
+_NAME = re.compile(r"^name = .*$", re.MULTILINE)
 _ROOM = re.compile(r"^(\S = room )(.+?)(?=\s*$)", re.MULTILINE)
 
 
@@ -51,8 +53,14 @@ class Translation:
         return {
             name: (self._folder / name).read_text(encoding="utf-8")
             for name in names
-            if name != ROOMS
+            if name not in (ROOMS, SETTINGS)
         }
+
+    def named(self, settings: str) -> str:
+        """The text of a study.toml, with the study's name in this language."""
+        own = (self._folder / SETTINGS).read_text(encoding="utf-8")
+        (line,) = _NAME.findall(own)
+        return _NAME.sub(lambda _: str(line), settings, count=1)
 
     def ready_form(self, name: str) -> str:
         """A ready form, as it is written in forms.toml."""

@@ -185,8 +185,9 @@ async def test_left_marks_nothing_where_nothing_is_marked() -> None:
 
 
 @pytest.mark.parametrize("language", languages())
-async def test_demographics_are_wholly_in_view_and_need_no_age(language: str) -> None:
-    for form in ready_forms("demographics", language).forms:
+async def test_ready_forms_are_wholly_in_view_and_no_age_is_needed(language: str) -> None:
+    forms = [*ready_forms("demographics", language).forms, *ready_forms("nasa-tlx", language).forms]
+    for form in forms:
         page = Page(title=form.title, body=form.body)
         async with at(made(Session(), form.items, page), 120, 40) as (pilot, screen):
             await pilot.pause()

@@ -11,10 +11,10 @@ import pytest
 from rich.cells import cell_len
 from textual.pilot import Pilot
 
-from game.forms.items import HeadingItem, ScaleItem, SliderItem
+from game.forms.items import HeadingItem, Item, ScaleItem, SliderItem
 from game.journal.history import History, Step
 from game.journal.records import Envelope, QuestionnaireAnswer
-from game.screens.study.base import Frame
+from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
 from game.screens.study.rehearsal import Make, Showing, painted
@@ -81,10 +81,8 @@ def scales(count: int) -> tuple[ScaleItem, ...]:
 async def at(make: Make, columns: int, rows: int) -> AsyncIterator[tuple[Pilot[None], Any]]:
     app = Showing(LOOK)
     async with app.run_test(size=(columns, rows)) as pilot, app.opened(make) as screen:
-        if screen.DEAF_S:
-            await pilot.pause(screen.DEAF_S + 0.1)
-        else:
-            await pilot.pause()
+        deaf_s = cast(StudyScreen[Any], screen).DEAF_S
+        await pilot.pause(deaf_s + 0.1 if deaf_s else None)
         yield pilot, screen
 
 
@@ -143,10 +141,10 @@ async def test_every_statement_is_in_view_when_it_is_answered() -> None:
 async def test_what_a_question_is_about_stays_in_sight() -> None:
     session, frame = Session(), Frame(ScreenSize(columns=80, rows=24), WORDS)
     long = "Now think of all of it. " * 8
-    items = (HeadingItem(text="The way"), *sliders(5, ("low", "high")),
+    items: tuple[Item, ...] = (HeadingItem(text="The way"), *sliders(5, ("low", "high")),
              HeadingItem(text=long), *scales(9)[5:])  # fmt: skip
     sheet = Sheet(cast(StudySession, session), items)
-    async with at(lambda: FormScreen(frame, PAGE, sheet), 80, 24) as (pilot, screen):
+    async with at(lambda: FormScreen(frame, PAGE, sheet), 80, 24) as (pilot, _):
         seen = [painted(pilot.app)]
         for _ in sheet.asked[1:]:
             await pilot.press("down")

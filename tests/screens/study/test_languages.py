@@ -61,6 +61,7 @@ def test_nobody_in_a_german_study_reads_english(tmp_path: Path) -> None:
     new_study(tmp_path / "study", seed=3, blocks=1, language="de")
     study = open_study(tmp_path / "study")
     assert not list(shortfalls(study))
+    assert study.settings.name == "Adaptive Navigationshilfe", "the pages in a browser show it"
     pages = rehearsed(study)
     assert [page.name for page in pages[:2]] == ["01 Bevor es losgeht", "02 Willkommen"]
     assert not {page.name: page.missing for page in pages if page.missing}
