@@ -20,7 +20,8 @@ from game.commands.offered import settings as settings_offered
 from game.errors import AnaError, choose_from
 from game.journal.folders import JOURNAL, all_journals, newest_journals
 from game.places import sessions_folder
-from game.screens.play.app import PlayOptions, run_play, run_replay
+from game.screens.play.app import run_play, run_replay
+from game.screens.play.options import PlayOptions
 from game.session.yoking import yoke_of
 from game.world import load_building
 from game.world.library import GENERATED, shipped_buildings

@@ -10,7 +10,8 @@ import pytest
 from textual.pilot import Pilot
 
 from game.coach.spec import CoachSpec, parse_coach
-from game.screens.play.app import AnaApp, PlayOptions
+from game.screens.play.app import AnaApp
+from game.screens.play.options import PlayOptions
 from game.world.building import Building
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings

@@ -1,7 +1,7 @@
 """The program with the screens: what leads to what, and how it begins and ends.
 
-A screen is imported when it is first shown, so that the first picture of a mission waits for
-nothing that it does not need.
+A screen is imported when it is first shown, or while another is looked at (`readiness.py`), so
+that the first picture of a mission waits for nothing that it does not need.
 """
 
 from __future__ import annotations
@@ -9,14 +9,10 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from datetime import UTC, datetime
-from functools import partial
 from pathlib import Path, PurePath
-from random import randrange
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from textual import events
 from textual.app import ComposeResult
@@ -29,6 +25,9 @@ from game.errors import AnaError, where
 from game.journal.folders import newest_journals
 from game.journal.records import Interruption
 from game.places import sessions_folder
+from game.screens.play.opening import Opening
+from game.screens.play.options import PlayOptions, chosen_mission, rules_of, todays_mission
+from game.screens.play.readiness import make_ready
 from game.screens.widgets.keymap import read_keys, write_template
 from game.screens.widgets.preferences import (
     Preferences,
@@ -40,73 +39,21 @@ from game.screens.widgets.preferences import (
 from game.screens.widgets.program import Program
 from game.screens.widgets.signals import has_job_control, lead_out, suspend_group
 from game.screens.widgets.theme import theme_name
-from game.world import load_building
-from game.world.building import Building
-from game.world.library import GENERATED
-from game.world.settings import FREE_PLAY, MissionSettings
-from game.world.variant import USUAL, Difficulty, Variant, day_seed, varied, with_demands
+from game.world.settings import MissionSettings
+from game.world.variant import Difficulty
 
 if TYPE_CHECKING:
-    from game.coach.spec import CoachSpec
-    from game.journal.writer import Journal
     from game.screens.play.home import HomeScreen
     from game.screens.play.journal_list import Chosen
     from game.screens.play.lesson_screen import LessonOver
     from game.screens.play.live import LiveMission
     from game.screens.play.map_screen import MapScreen
-    from game.screens.play.mission_screen import Failed, Finished, LiveScreen, MissionScreen
+    from game.screens.play.mission_screen import Failed, Finished
     from game.screens.play.replay_screen import ReplayScreen
     from game.screens.play.result import ResultScreen
     from game.screens.play.start_screen import StartScreen
-    from game.screens.play.watch_screen import WatchScreen
+    from game.screens.play.teaching import Teaching
     from game.session.replay import Replay
-
-
-NEW_SEEDS = 100_000
-"""Seeds chosen at home are below this, so that they can be typed again."""
-
-
-@dataclass(frozen=True)
-class PlayOptions:
-    """A mission of free play: where, by which rules, with which coach, kept in which folder; and
-    who plays it where it is watched, by the name in `game.rescuers.catalogue`."""
-
-    building: Building
-    spec: CoachSpec
-    settings: MissionSettings
-    seed: int
-    log_dir: Path
-    rescuer: str = "literal"
-    variant: Variant = USUAL
-    drawn: Building | None = None
-    """The building before the variant; None where they are the same."""
-    memorise_ms: int = 0
-    """For how long the map is shown first, to a person."""
-    now: bool = False
-    """Whether the clock starts at once, without the page before the mission."""
-    onward: Literal["seed", "office", "same"] = "seed"
-    """What changes from one mission to the next: the seed, with it the whole office, or nothing,
-    as in the mission of the day."""
-
-    @property
-    def about(self) -> str:
-        """What sets this mission apart, in a few words."""
-        told = self.variant.of_seed(self.seed)
-        if self.onward == "same":
-            return ", ".join(filter(None, (f"Mission of the day {self.seed}", told)))
-        if self.onward == "office" and self.variant.victims == "drawn":
-            return ", ".join(filter(None, (f"Seed {self.seed}", told)))
-        return told
-
-    def again(self) -> PlayOptions:
-        """The next mission: the next seed, and what follows from it; the map is known by now."""
-        if self.onward == "same":
-            return replace(self, memorise_ms=0, now=False)
-        seed, drawn = self.seed + 1, self.drawn
-        if self.onward == "office":
-            drawn = load_building(f"{GENERATED}:{seed}")
-        building = self.building if drawn is None else varied(drawn, self.variant, seed)
-        return replace(self, seed=seed, building=building, drawn=drawn, memorise_ms=0, now=False)
 
 
 class AnaApp(Program, inherit_bindings=False):
@@ -137,8 +84,10 @@ class AnaApp(Program, inherit_bindings=False):
         self._first = first
         self._options = options
         self.live: LiveMission | None = None
-        self._lessons: Generator[Screen[None]] | None = None
+        self._opening = Opening(self)
+        self._teaching: Teaching | None = None
         self._been_home = False
+        self._made_ready = False
         self._opened = False
 
     # --- beginning and ending -------------------------------------------------------------------
@@ -217,7 +166,7 @@ class AnaApp(Program, inherit_bindings=False):
         from game.screens.play.home import HomeScreen
 
         self._been_home = True
-        self._replace(HomeScreen(self.preferences, self._log_dir(), self._rules_of))
+        self.replace(HomeScreen(self.preferences, self._log_dir(), self._rules_of))
 
     def on_home_screen_wanted(self, message: HomeScreen.Wanted) -> None:
         home = message.sender
@@ -226,7 +175,8 @@ class AnaApp(Program, inherit_bindings=False):
             case "play":
                 self.offer_mission(self._chosen(home.seed))
             case "today":
-                self.offer_mission(self._todays())
+                rules = self._rules_of("standard")
+                self.offer_mission(todays_mission(self.preferences, rules, self._log_dir()))
             case "tutorial":
                 self.teach()
             case "watch":
@@ -297,181 +247,57 @@ class AnaApp(Program, inherit_bindings=False):
         self._prefer(self.preferences.replaced(ground=ground))
 
     def _rules_of(self, difficulty: Difficulty) -> MissionSettings:
-        """The rules of a difficulty, those of the command line where it is theirs, with the
-        controls chosen at home."""
-        options = self._options
-        if options is not None and options.variant.difficulty == difficulty:
-            rules = options.settings
-        else:
-            rules = with_demands(FREE_PLAY, difficulty)
-        return replace(rules, controls=self.preferences.controls)
+        return rules_of(difficulty, self.preferences, self._options)
 
     def _chosen(self, typed: str = "") -> PlayOptions:
-        """The mission chosen at home, by the seed that was typed or a new one."""
-        chosen = self.preferences
-        seed = int(typed) if typed else randrange(1, NEW_SEEDS)
-        name = f"{GENERATED}:{seed}" if chosen.building == GENERATED else chosen.building
-        drawn = load_building(name, seed)
-        variant = Variant(chosen.victims, chosen.difficulty)
-        return PlayOptions(
-            varied(drawn, variant, seed),
-            self._coach(),
-            self._rules_of(chosen.difficulty),
-            seed,
-            self._log_dir(),
-            variant=variant,
-            drawn=drawn,
-            memorise_ms=1000 * chosen.memorise,
-            onward="office" if chosen.building == GENERATED else "seed",
-        )
-
-    def _todays(self) -> PlayOptions:
-        """The mission of the day, with the coach chosen at home."""
-        seed = day_seed(datetime.now(UTC))
-        building, rules = load_building(f"{GENERATED}:{seed}"), self._rules_of("standard")
-        return PlayOptions(building, self._coach(), rules, seed, self._log_dir(), onward="same")
-
-    def _coach(self) -> CoachSpec:
-        from game.screens.play.home import spec_of
-
-        return spec_of(self.preferences.coach)
+        rules = self._rules_of(self.preferences.difficulty)
+        return chosen_mission(self.preferences, rules, self._log_dir(), typed)
 
     # --- the tutorial ---------------------------------------------------------------------------
 
     def teach(self) -> None:
         """Go through the tutorial."""
-        from game.screens.play.tutorial import Tutorial
-        from game.screens.widgets.terminal import this_terminal
+        from game.screens.play.teaching import Teaching
 
-        rules = self._rules_of("standard")
-        tutorial = Tutorial(self._log_dir(), this_terminal(*self.size), rules)
-        self._lessons = tutorial.screens()
-        self._teach_on()
+        self._teaching = Teaching(self, self._log_dir(), self._rules_of("standard"))
+        self._teaching.go_on()
 
     def on_lesson_over(self, message: LessonOver) -> None:
         self.live = None
-        if message.go_on:
-            self._teach_on()
-        else:
-            self._stop_teaching()
-
-    def _teach_on(self) -> None:
-        from game.screens.play.tutorial import LegScreen
-
-        assert self._lessons is not None
-        try:
-            screen = next(self._lessons, None)
-        except AnaError as error:
-            self._say_or_fail("The tutorial cannot go on", error)
-            return
-        if screen is None:
-            self._stop_teaching()
-            return
-        self.live = screen.live if isinstance(screen, LegScreen) else None
-        self._replace(screen)
-
-    def _stop_teaching(self) -> None:
-        lessons, self._lessons = self._lessons, None
-        if lessons is not None:
-            lessons.close()
-        self._step_back()
+        if self._teaching is not None:
+            if message.go_on:
+                self._teaching.go_on()
+            else:
+                self._teaching.stop()
 
     # --- missions -------------------------------------------------------------------------------
 
     def offer_mission(self, options: PlayOptions) -> None:
-        """What comes before a mission, and then the mission: the map, where it is wanted, and the
-        page that says what the mission is about."""
-        from game.screens.play.map_screen import MapScreen
-
+        """What comes before a mission, and then the mission."""
         self._options = options
-        if options.memorise_ms:
-            self._replace(MapScreen(options.building, options.memorise_ms))
-        else:
-            self._introduce(options)
+        self._opening.offer(options)
 
     def on_map_screen_seen(self, message: MapScreen.Seen) -> None:
         if message.shown_ms is None:
-            self._step_back()
+            self.step_back()
         elif self._options is not None:
-            self._introduce(self._options, message.shown_ms)
-
-    def _introduce(self, options: PlayOptions, memorised_ms: int = 0) -> None:
-        from game.screens.play.start_screen import StartScreen
-
-        begin = partial(self.play_mission, options, memorised_ms)
-        if options.now:
-            begin()
-        else:
-            self._replace(
-                StartScreen(options.building, options.settings, options.spec, begin, options.about)
-            )
+            self._opening.introduce(self._options, message.shown_ms)
 
     def on_start_screen_wanted(self, message: StartScreen.Wanted) -> None:
         if message.what == "start":
             message.begin()
         else:
-            self._step_back()
+            self.step_back()
 
-    def play_mission(self, options: PlayOptions, memorised_ms: int = 0) -> None:
-        """A person plays at once, who saw the map for so long before."""
-        self._begin(options, lambda: self._mission(options, memorised_ms))
+    def play_mission(self, options: PlayOptions) -> None:
+        """A person plays at once."""
+        self._options = options
+        self._opening.play(options)
 
     def watch_mission(self, options: PlayOptions) -> None:
         """A simulated rescuer plays."""
-        self._begin(options, lambda: self._watching(options))
-
-    def _begin(self, options: PlayOptions, make: Callable[[], LiveScreen]) -> None:
         self._options = options
-        try:
-            screen = make()
-        except AnaError as error:
-            self._say_or_fail("The mission cannot start", error)
-            return
-        self.live = screen.live
-        self._replace(screen)
-
-    def _mission(self, options: PlayOptions, memorised_ms: int) -> MissionScreen:
-        from game.screens.play.free_play_screen import FreePlayScreen
-        from game.screens.play.live import LiveMission
-        from game.screens.widgets.terminal import this_terminal
-        from game.session.playing import start_free_play
-
-        run, journal = start_free_play(
-            options.building,
-            options.settings,
-            options.spec,
-            options.seed,
-            options.log_dir,
-            this_terminal(*self.size),
-            variant=options.variant,
-            memorised_ms=memorised_ms,
-        )
-        return FreePlayScreen(LiveMission(run, journal), _path(journal), self.preferences)
-
-    def _watching(self, options: PlayOptions) -> WatchScreen:
-        from game.rescuers.catalogue import character
-        from game.screens.play.coachpanel import OverheardCoach
-        from game.screens.play.live import LiveMission
-        from game.screens.play.watch_screen import WatchScreen
-        from game.screens.widgets.terminal import this_terminal
-        from game.session.playing import start_free_play
-
-        building, who = options.building, character(options.rescuer)
-        run, journal = start_free_play(
-            building,
-            options.settings,
-            options.spec,
-            options.seed,
-            options.log_dir,
-            this_terminal(*self.size),
-            rescuer=who.name,
-            build=OverheardCoach.build,
-            variant=options.variant,
-        )
-        coach = run.coach
-        assert isinstance(coach, OverheardCoach)
-        rescuer = who.make(building, options.settings, options.seed)
-        return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
+        self._opening.watch(options)
 
     def on_finished(self, message: Finished) -> None:
         self.live = None
@@ -489,13 +315,13 @@ class AnaApp(Program, inherit_bindings=False):
             replay = Replay(read_journal(journal))
             replay.seek(replay.duration_ms)
         except AnaError as error:
-            self._say_or_fail("The journal cannot be read", error)
+            self.say_or_fail("The journal cannot be read", error)
             return
         story = tell(replay)
         if always or story.actions:
-            self._replace(ResultScreen(story, journal))
+            self.replace(ResultScreen(story, journal))
         else:
-            self._step_back()
+            self.step_back()
 
     def on_result_screen_wanted(self, message: ResultScreen.Wanted) -> None:
         result = message.sender
@@ -535,7 +361,7 @@ class AnaApp(Program, inherit_bindings=False):
         try:
             self.show_replay(Replay(read_journal(journal)))
         except AnaError as error:
-            self._say_or_fail("This mission cannot be replayed", error)
+            self.say_or_fail("This mission cannot be replayed", error)
 
     def _journal_chosen(self, chosen: Chosen | None) -> None:
         if chosen is None:
@@ -559,7 +385,7 @@ class AnaApp(Program, inherit_bindings=False):
         try:
             replay = Replay(message.transcript, message.number)
         except AnaError as error:
-            self._say_or_fail("This mission cannot be replayed", error)
+            self.say_or_fail("This mission cannot be replayed", error)
             return
         self.switch_screen(ReplayScreen(replay))
 
@@ -567,24 +393,28 @@ class AnaApp(Program, inherit_bindings=False):
         if len(self.screen_stack) > 2:
             self.pop_screen()
         else:
-            self._step_back()
+            self.step_back()
 
     # --- the stack of screens -------------------------------------------------------------------
 
-    def _step_back(self) -> None:
+    def step_back(self) -> None:
         """Back to the home screen if it was the start, otherwise quit."""
         if self._been_home:
             self.show_home()
         else:
             self.exit()
 
-    def _replace(self, screen: Screen[None]) -> None:
+    def replace(self, screen: Screen[Any]) -> None:
+        """Show nothing but this screen."""
         while len(self.screen_stack) > 2:
             self.pop_screen()
         if len(self.screen_stack) == 2:
             self.switch_screen(screen)
         else:
             self.push_screen(screen)
+        if not self._made_ready:
+            self._made_ready = True
+            make_ready(screen)
 
     @property
     def _at_start(self) -> bool:
@@ -592,7 +422,7 @@ class AnaApp(Program, inherit_bindings=False):
 
         return isinstance(self.screen, StartScreen)
 
-    def _say_or_fail(self, title: str, error: AnaError) -> None:
+    def say_or_fail(self, title: str, error: AnaError) -> None:
         """Tell of an error where the user can go on from; leave with it where nothing is shown."""
         from game.screens.widgets.dialogs import Notice
 
@@ -601,13 +431,6 @@ class AnaApp(Program, inherit_bindings=False):
         else:
             self.failure = error
             self.exit(return_code=2)
-
-
-def _path(journal: Journal) -> Path:
-    from game.journal.sink import FileSink
-
-    assert isinstance(journal.sink, FileSink)
-    return journal.sink.path
 
 
 def run_home() -> int:

@@ -122,9 +122,9 @@ def report(error: Exception) -> int:
         written = f"The report is in {path}"
     except OSError as refused:
         written = f"The report could not be written to {path} ({refused.strerror})"
-    click.echo(
-        f"ana: something went wrong in ana itself ({where(error)}). What you played up to then is "
-        f"saved. {written}",
-        err=True,
-    )
+    if isinstance(error, ImportError):
+        what = "ana was changed while it ran, by an upgrade for instance. Start it again"
+    else:
+        what = f"something went wrong in ana itself ({where(error)})"
+    click.echo(f"ana: {what}. What you played up to then is saved. {written}", err=True)
     return STATUS_DEFECT

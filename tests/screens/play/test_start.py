@@ -13,7 +13,7 @@ from game.coach.spec import parse_coach
 from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.journal.records import Paused
-from game.screens.play.app import AnaApp, PlayOptions
+from game.screens.play.app import AnaApp
 from game.screens.play.free_play_screen import (
     DIED_MS,
     Gloss,
@@ -25,6 +25,7 @@ from game.screens.play.home import BUILDINGS, HomeScreen, menu_items
 from game.screens.play.map_screen import MapScreen
 from game.screens.play.menu import menu_rows
 from game.screens.play.mission_screen import MissionScreen
+from game.screens.play.options import PlayOptions
 from game.screens.play.start_screen import StartScreen
 from game.screens.widgets.canvas import plain, width
 from game.screens.widgets.dialogs import Help, TooSmall
