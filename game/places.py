@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
@@ -14,12 +15,13 @@ def checkout(package: Path = PACKAGE) -> Path | None:
 
 
 def sessions_folder(package: Path = PACKAGE) -> Path:
-    """The folder for journals: the checkout's `data/sessions`, else the user's data folder.
+    """The folder for journals: in a checkout that the user may write to, its `data/sessions`, else
+    the user's data folder.
 
     This does not create it.
     """
     root = checkout(package)
-    if root is not None:
+    if root is not None and os.access(root, os.W_OK):
         return root / "data" / "sessions"
     from platformdirs import user_data_path
 

@@ -195,8 +195,9 @@ class AnaApp(Program, inherit_bindings=False):
     def _choose_journal(self) -> None:
         from game.screens.play.journal_list import JournalsScreen
 
-        journals = newest_journals(self._log_dir())
-        self.push_screen(JournalsScreen(journals), self._journal_chosen)
+        folder = self._log_dir()
+        journals = newest_journals(folder)
+        self.push_screen(JournalsScreen(folder, journals), self._journal_chosen)
 
     def _show_howto(self) -> None:
         from game.screens.widgets.howto import HowToScreen
@@ -229,7 +230,7 @@ class AnaApp(Program, inherit_bindings=False):
             write_template(file)
             if isinstance(self.screen, HomeScreen):
                 self._remember(self.screen.preferences)
-            self.push_screen(SettingsScreen(self.preferences, self._prefer, str(file)))
+            self.push_screen(SettingsScreen(self.preferences, self._prefer, file, self._log_dir()))
 
     def _prefer(self, preferences: Preferences) -> None:
         """Let new preferences hold at once."""
@@ -243,7 +244,7 @@ class AnaApp(Program, inherit_bindings=False):
                 screen.prefer(preferences)
 
     def _turn_theme(self) -> None:
-        ground = "dark" if self.theme == "ana-light" else "light"
+        ground = "light" if self.current_theme.dark else "dark"
         self._prefer(self.preferences.replaced(ground=ground))
 
     def _rules_of(self, difficulty: Difficulty) -> MissionSettings:

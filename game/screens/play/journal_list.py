@@ -11,9 +11,10 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
+from game.places import shortened
 from game.screens.play.past_missions import PastMission, past_mission, past_missions
 from game.screens.widgets.aside import aside
-from game.screens.widgets.canvas import BLANK, Row, Run
+from game.screens.widgets.canvas import BLANK, Row, Run, width, wrapped
 from game.screens.widgets.charts import bars
 from game.screens.widgets.keyline import KeyLine
 from game.screens.widgets.pointing import ClickCanvas, Pointed, RowClicked
@@ -76,15 +77,27 @@ class JournalList(ClickCanvas):
         return number if row >= self._first_row and number < self._count else None
 
     def show(
-        self, journals: Sequence[Path], selected: int, missions: Sequence[PastMission]
+        self,
+        folder: Path,
+        journals: Sequence[Path],
+        selected: int,
+        missions: Sequence[PastMission],
     ) -> None:
-        """Draw the list."""
+        """Draw the list of a folder's journals."""
         rows: list[Row] = []
         counted = sum(mission.counts for mission in missions)
         if counted > 1 and self.size.height >= CHART_ROWS + LEAST_LISTED:
             chart = history_rows(missions, journals[selected], self.size.width - 2, CHART_ROWS - 2)
             rows += [*chart, BLANK]
-        rows += [(("  Your missions", "title"),), BLANK]
+        kept = f"kept in {shortened(folder)}"
+        title: Row = (("  Your missions", "title"),)
+        if width(title) + len(kept) + 3 <= self.size.width:
+            rows += [(*title, (f"   {kept}", "quiet")), BLANK]
+        else:
+            rows += [
+                title,
+                *(((f"  {line}", "quiet"),) for line in wrapped(kept, self.size.width - 3)),
+            ]
         high = max(1, self.size.height - len(rows) - 1)
         above = len(rows)
         first = max(0, min(selected - high // 2, len(journals) - high))
@@ -112,8 +125,9 @@ class JournalsScreen(Pointed, Screen[Chosen]):
         Binding("escape,q,Q,ctrl+q,ctrl+c", "dismiss", id="journals.back"),
     ]
 
-    def __init__(self, journals: Sequence[Path]) -> None:
+    def __init__(self, folder: Path, journals: Sequence[Path]) -> None:
         super().__init__()
+        self._folder = folder
         self._journals = journals
         self._selected = 0
         self._missions: tuple[PastMission, ...] = ()
@@ -137,7 +151,7 @@ class JournalsScreen(Pointed, Screen[Chosen]):
         self.call_after_refresh(self._show)
 
     def _show(self) -> None:
-        self._list.show(self._journals, self._selected, self._missions)
+        self._list.show(self._folder, self._journals, self._selected, self._missions)
 
     def on_row_clicked(self, message: RowClicked) -> None:
         number = self._list.journal_at(message.row)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, ClassVar
 
 from textual.app import ComposeResult
@@ -11,6 +12,7 @@ from textual.containers import Vertical
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
+from game.places import shortened
 from game.screens.play.home import CONTROLS
 from game.screens.play.menu import Item, after, menu_rows
 from game.screens.widgets.keyline import KeyLine
@@ -63,12 +65,16 @@ class SettingsScreen(Pointed, ModalScreen[None]):
     ]
 
     def __init__(
-        self, preferences: Preferences, changed: Callable[[Preferences], None], keys_file: str
+        self,
+        preferences: Preferences,
+        changed: Callable[[Preferences], None],
+        keys_file: Path,
+        log_dir: Path,
     ) -> None:
         super().__init__()
         self._preferences = preferences
         self._changed = changed
-        self._keys_file = keys_file
+        self._keys_file, self._log_dir = keys_file, log_dir
         self._selected = 0
         self._list = SettingsList()
 
@@ -76,9 +82,15 @@ class SettingsScreen(Pointed, ModalScreen[None]):
         with Vertical(classes="dialog"):
             yield Static("Settings", classes="title", markup=False)
             yield self._list
-            told = f"Controls hold from the next mission on. Keys are changed in\n{self._keys_file}"
-            yield Static(told, classes="remark", markup=False)
+            yield Static(self._remark(), classes="remark", markup=False)
             yield KeyLine(("↑ ↓", "choose"), ("← →", "change"), ("Esc", "back"))
+
+    def _remark(self) -> str:
+        return (
+            "Controls hold from the next mission on.\n"
+            f"Keys are changed in {shortened(self._keys_file)}\n"
+            f"Missions are kept in {shortened(self._log_dir)}"
+        )
 
     def on_mount(self) -> None:
         self._show()

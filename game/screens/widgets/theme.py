@@ -1,7 +1,8 @@
-"""Colours: two themes of many colours, and one of the terminal's own.
+"""Colours: a dark and a light theme of many colours, and one of the terminal's own.
 
 A theme gives the names that the style sheets use; nothing else in the screens names a colour. The
-first two exist in each look: a study keeps the one it was made with.
+first two exist in each look: a study keeps the one it was made with. Those of today's look have a
+version for 256 colours.
 """
 
 from __future__ import annotations
@@ -169,6 +170,23 @@ _LIGHT_2 = _LIGHT | {
     "known-door": "#c26a12",
 }
 
+# The nearest of 256 colours can be too near another: these are entries of xterm's palette that keep
+# the distances.
+_DARK_256 = _DARK_2 | {
+    "red": "#ffaf87",
+    "player-tile": "#8700d7",
+    "treated-blue": "#000087",
+}
+_LIGHT_256 = _LIGHT_2 | {
+    "red": "#af0000",
+    "on-red-ground": "#af0000",
+    "treated-blue": "#000087",
+    "seen-rescued": "#00875f",
+    "wall": "#444444",
+    "known-wall": "#444444",
+    "player-tile": "#8700d7",
+}
+
 _TERMINAL = {
     "dark": "ansi_default",
     "unseen": "ansi_default",
@@ -275,6 +293,8 @@ def _theme(name: str, inks: Mapping[str, str], *, dark: bool, ansi: bool = False
 THEMES = (
     _theme("ana-dark", _DARK_2, dark=True),
     _theme("ana-light", _LIGHT_2, dark=False),
+    _theme("ana-dark-256", _DARK_256, dark=True),
+    _theme("ana-light-256", _LIGHT_256, dark=False),
     _theme("ana-dark-1", _DARK, dark=True),
     _theme("ana-light-1", _LIGHT, dark=False),
     _theme("ana-terminal", _TERMINAL, dark=True, ansi=True),
@@ -284,6 +304,8 @@ THEMES = (
 def theme_name(environ: Mapping[str, str], wanted: Ground | None = None, look: Look = LOOK) -> str:
     """The theme for this terminal: its own colours where it has 16 or fewer. `wanted` is the user's
     own choice of ground."""
-    if colours(environ) in ("none", "16"):
+    found = colours(environ)
+    if found in ("none", "16"):
         return "ana-terminal"
-    return f"ana-{wanted or ground(environ)}" + ("" if look == LOOK else f"-{look}")
+    kind = f"-{look}" if look != LOOK else "-256" if found == "256" else ""
+    return f"ana-{wanted or ground(environ)}{kind}"

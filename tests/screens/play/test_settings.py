@@ -32,7 +32,7 @@ async def test_settings_hold_at_once_and_from_one_time_to_the_next(
         await press(
             pilot, "right", "right", "down", "right", "down", "down", "right", "down", "right"
         )
-        assert app.theme == "ana-light"
+        assert app.theme == "ana-light-256"
         await press(pilot, "escape")
         assert app.screen is home and "← → turn" in shown(home)
         await press(pilot, "p")

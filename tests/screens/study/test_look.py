@@ -36,7 +36,7 @@ def many_colours(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_new_study_has_the_look_of_today(tmp_path: Path) -> None:
     app = app_of(tmp_path / "new")
-    assert (app.look, app.theme, app.cells) == (2, "ana-dark", "normal")
+    assert (app.look, app.theme, app.cells) == (2, "ana-dark-256", "normal")
 
 
 def test_a_study_from_before_there_were_looks_keeps_the_first(tmp_path: Path) -> None:

@@ -18,12 +18,12 @@ from tests.terminal import Terminal
     [
         ({}, "16", "ana-terminal"),
         ({"TERM": "linux"}, "16", "ana-terminal"),
-        ({"TERM": "xterm-256color"}, "256", "ana-dark"),
-        ({"TERM": "xterm-kitty"}, "256", "ana-dark"),
+        ({"TERM": "xterm-256color"}, "256", "ana-dark-256"),
+        ({"TERM": "xterm-kitty"}, "256", "ana-dark-256"),
         ({"TERM": "tmux-256color", "COLORTERM": "truecolor"}, "truecolor", "ana-dark"),
         ({"TERM": "screen", "COLORTERM": "truecolor"}, "16", "ana-terminal"),
-        ({"TERM": "screen-256color-bce", "COLORTERM": "24bit"}, "256", "ana-dark"),
-        ({"TERM": "screen.xterm-256color", "COLORTERM": "truecolor"}, "256", "ana-dark"),
+        ({"TERM": "screen-256color-bce", "COLORTERM": "24bit"}, "256", "ana-dark-256"),
+        ({"TERM": "screen.xterm-256color", "COLORTERM": "truecolor"}, "256", "ana-dark-256"),
         ({"TERM": "xterm", "COLORTERM": " TrueColor "}, "truecolor", "ana-dark"),
         ({"TERM": "xterm", "COLORTERM": "24bit", "COLORFGBG": "0;15"}, "truecolor", "ana-light"),
         (
@@ -74,7 +74,7 @@ def test_no_more_colours_are_sent_than_there_are(
 def test_the_users_choice_of_ground_counts_more_than_the_terminals() -> None:
     environ = {"TERM": "xterm-256color", "COLORFGBG": "0;default;15"}
     assert ground(environ) == "light"
-    assert theme_name(environ, "dark") == "ana-dark"
+    assert theme_name(environ, "dark") == "ana-dark-256"
 
 
 def test_a_terminal_is_described_by_its_own_words(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,9 +4,13 @@ Contrast is that of WCAG 2.1: (L1 + .05) / (L2 + .05) of relative luminances, al
 greyscale. Colour blindness is simulated as by Machado, Oliveira and Fernandes (2009), severity 1.
 """
 
-import pytest
+from collections.abc import Mapping
 
-from game.screens.widgets.theme import THEMES
+import pytest
+from rich.color import Color, ColorSystem
+
+from game.screens.widgets.preferences import Ground
+from game.screens.widgets.theme import THEMES, theme_name
 
 Matrix = tuple[tuple[float, float, float], ...]
 
@@ -59,7 +63,18 @@ LEAST: dict[tuple[str, str], float] = {
 }
 """How much each pair of colours differs at least."""
 
-TODAY = {theme.name: theme for theme in THEMES if theme.name in ("ana-dark", "ana-light")}
+GROUNDS = ("dark", "light")
+DEPTHS: dict[str, Mapping[str, str]] = {
+    "truecolor": {"COLORTERM": "truecolor"},
+    "256": {"TERM": "xterm-256color"},
+}
+
+
+def as_sent(colour: str, depth: str) -> str:
+    """What a terminal of so many colours is sent for `#rrggbb`."""
+    if depth == "truecolor":
+        return colour
+    return Color.parse(colour).downgrade(ColorSystem.EIGHT_BIT).get_truecolor().hex
 
 
 def luminance(colour: str, eyes: Matrix) -> float:
@@ -76,9 +91,16 @@ def contrast(one: str, other: str, eyes: Matrix) -> float:
 
 
 @pytest.mark.parametrize("eyes", EYES)
-@pytest.mark.parametrize("name", TODAY)
-def test_colours_can_be_told_apart(name: str, eyes: str) -> None:
-    inks = TODAY[name].variables
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("ground", GROUNDS)
+def test_colours_can_be_told_apart(ground: Ground, depth: str, eyes: str) -> None:
+    name = theme_name(DEPTHS[depth], ground)
+    inks = {
+        ink: as_sent(colour, depth)
+        for theme in THEMES
+        if theme.name == name
+        for ink, colour in theme.variables.items()
+    }
     found = {
         (one, other): contrast(inks[f"ana-{one}"], inks[f"ana-{other}"], EYES[eyes])
         for one, other in LEAST
@@ -92,6 +114,14 @@ def test_contrast_is_what_it_should_be() -> None:
     assert contrast("#777777", "#ffffff", plain) == pytest.approx(4.48, abs=0.01)
     red, grey = "#ff0000", "#5f5f5f"
     assert contrast(red, grey, EYES["a protanope"]) < contrast(red, grey, plain)
+
+
+def test_the_colours_of_256_are_sent_as_they_are_named() -> None:
+    usual = {theme.name: theme.variables for theme in THEMES}
+    for ground in GROUNDS:
+        for ink, colour in usual[f"ana-{ground}-256"].items():
+            if colour != usual[f"ana-{ground}"][ink]:
+                assert as_sent(colour, "256") == colour
 
 
 def test_the_themes_have_the_same_colours() -> None:
