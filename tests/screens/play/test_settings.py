@@ -28,7 +28,9 @@ async def test_settings_hold_at_once_and_from_one_time_to_the_next(
         await press(pilot, "f2")
         settings = await until(pilot, SettingsScreen)
         dialog = settings.query_one(".dialog").region
-        assert dialog.x > 5 and dialog.y > 2, "in the middle of the window"
+        left, above = dialog.x, dialog.y
+        assert left > 5 and above > 0, "in the middle of the window"
+        assert abs(80 - dialog.right - left) <= 1 and abs(24 - dialog.bottom - above) <= 1
         await press(
             pilot, "right", "right", "down", "right", "down", "down", "right", "down", "right"
         )
