@@ -6,6 +6,10 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+import msgspec
+
+NOT_UTF8 = "the file is not UTF-8 text"
+SAVE_AS_UTF8 = "Save it again as UTF-8"
 _KINDS = {
     "array": "a list in brackets",
     "object": "a table",
@@ -48,6 +52,25 @@ def in_plain_words(message: str, what: str = "key") -> str:
     if (found := _NONE_OF.match(message)) is not None:
         return f"'{found[1]}' is none of the values that are allowed"
     return message
+
+
+def refused(message: str) -> str:
+    """The value that a message of msgspec's says is none of those allowed; else empty."""
+    found = _NONE_OF.match(message)
+    return found[1] if found is not None else ""
+
+
+def allowed(kind: type, path: str) -> tuple[str, ...]:
+    """What can stand at `path`, as msgspec writes it, in a file that is read as `kind`; empty where
+    that is no choice of a few words."""
+    here: msgspec.inspect.Type = msgspec.inspect.type_info(kind)
+    for key, _ in _STEP.findall(path):
+        if key and isinstance(here, msgspec.inspect.StructType | msgspec.inspect.DataclassType):
+            here = next(field.type for field in here.fields if field.encode_name == key)
+        elif isinstance(here, msgspec.inspect.VarTupleType):
+            here = here.item_type
+    values = here.values if isinstance(here, msgspec.inspect.LiteralType) else ()
+    return tuple(map(str, values))
 
 
 def listed(message: str, path: str, tree: Mapping[str, Any]) -> str:

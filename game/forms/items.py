@@ -281,6 +281,6 @@ Item = AnyQuestion | HeadingItem
 def _check_answers(identifier: str, answers: tuple[str, ...]) -> None:
     if not 2 <= len(answers) <= MOST_ANSWERS:
         raise ValueError(
-            f"{identifier} has {len(answers)} answers; give it from 2 to {MOST_ANSWERS}"
+            f"{identifier} must have from 2 to {MOST_ANSWERS} answers, not {len(answers)}"
         )
     told_apart("the answers", *answers)

@@ -27,7 +27,7 @@ from game.forms.items import (
     Weights,
 )
 from game.forms.placeholders import check_text
-from game.toml_words import in_plain_words, listed, parted
+from game.toml_words import NOT_UTF8, SAVE_AS_UTF8, in_plain_words, listed, parted
 
 FORMS, ITEMS = "forms.toml", "items.toml"
 FILLED = "instructor"
@@ -120,7 +120,7 @@ def _text(path: Path) -> str:
             hint="Copy the file from a new study folder",
         ) from error
     except UnicodeDecodeError as error:
-        raise FormsError("the file is not UTF-8 text", place=str(path)) from error
+        raise FormsError(NOT_UTF8, place=str(path), hint=SAVE_AS_UTF8) from error
 
 
 def _tree(text: str, path: Path) -> dict[str, Any]:

@@ -54,6 +54,7 @@ from game.study.study_settings import (
 )
 from game.study.texts import Texts, read_texts
 from game.tables.asked import asked_columns
+from game.toml_words import NOT_UTF8, SAVE_AS_UTF8
 from game.world.building import Building
 from game.world.fitness import shortcomings
 from game.world.library import GENERATED, load_building, shipped_buildings
@@ -370,7 +371,7 @@ def read_phrasebook(path: Path) -> Phrasebook:
         message = f"the instructions cannot be read ({error.strerror})"
         raise StudyError(message, place=str(path)) from error
     except UnicodeDecodeError as error:
-        raise StudyError("the file is not UTF-8 text", place=str(path)) from error
+        raise StudyError(NOT_UTF8, place=str(path), hint=SAVE_AS_UTF8) from error
 
 
 def _digest_if_there(path: Path) -> dict[str, str]:

@@ -16,12 +16,20 @@ from game.coach.own import SEPARATOR
 from game.coach.presets import PRESETS
 from game.coach.registry import KINDS
 from game.coach.spec import DEFAULT_PRESET
-from game.errors import AnaError, did_you_mean, disk_hint
+from game.errors import AnaError, choose_from, did_you_mean, disk_hint
 from game.study.design import Design
 from game.study.files import LEDGER, NEW_STUDY, NO_STUDY
 from game.study.instructors import Instructor, instructor_named
 from game.tables.designs import PRIMARY_CORRECTION, PRIMARY_OUTCOMES, Correction
-from game.toml_words import in_plain_words, listed, parted
+from game.toml_words import (
+    NOT_UTF8,
+    SAVE_AS_UTF8,
+    allowed,
+    in_plain_words,
+    listed,
+    parted,
+    refused,
+)
 from game.world.settings import MissionSettings
 
 ADAPTIVE = "ana"
@@ -288,7 +296,7 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
             hint=disk_hint(error),
         ) from error
     except UnicodeDecodeError as error:
-        raise SettingsError("the file is not UTF-8 text", place=str(path)) from error
+        raise SettingsError(NOT_UTF8, place=str(path), hint=SAVE_AS_UTF8) from error
     except tomllib.TOMLDecodeError as error:
         raise SettingsError(f"this is not TOML: {error}", place=str(path)) from error
     try:
@@ -298,7 +306,9 @@ def read_settings(path: Path) -> tuple[StudySettings, str]:
         found, key = parted(str(error))
         message = in_plain_words(found, "setting")
         place = f"{path}, {key.removeprefix('$.')}" if key.strip("$") else str(path)
-        hint = listed(found, key, tree) or _suggestion(message)
+        choices = allowed(StudySettings, key) if refused(found) else ()
+        hint = choose_from(refused(found), choices) if choices else ""
+        hint = hint or listed(found, key, tree) or _suggestion(message)
         raise SettingsError(message, place=place, hint=hint) from error
     return settings, sha256(data).hexdigest()
 

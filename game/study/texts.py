@@ -15,7 +15,7 @@ from game.forms.checks import told_apart
 from game.forms.placeholders import check_placeholders
 from game.forms.reading import Pages
 from game.mission_words import MissionWords
-from game.toml_words import in_plain_words, parted
+from game.toml_words import NOT_UTF8, SAVE_AS_UTF8, in_plain_words, parted
 from game.world.events import LevelWish
 
 LATER_TEXTS = ("login", "no_place", "withdrawn", "cut_off", "level_key", "browser")
@@ -278,7 +278,9 @@ def read_texts(path: Path) -> Texts:
             place=str(path),
             hint="Copy the file from a new study folder",
         ) from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise TextsError(NOT_UTF8, place=str(path), hint=SAVE_AS_UTF8) from error
+    except tomllib.TOMLDecodeError as error:
         raise TextsError(f"this is not TOML: {error}", place=str(path), hint=_COMPARE) from error
     except msgspec.ValidationError as error:
         found, key = parted(str(error))

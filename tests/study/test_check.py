@@ -214,6 +214,16 @@ def test_times_are_found_in_a_text(text: str, ms: int | list[int]) -> None:
             "nor among those that are shipped. Did you mean foundry?",
         ),
         (
+            "study.toml", "label_seconds", 'phases = ["consent", "practise"]\nlabel_seconds',
+            "study.toml, phases[1]: 'practise' is none of the values that are allowed. Did you "
+            "mean practice? Choose from",
+        ),
+        (
+            "study.toml", 'memorise = "continue"', 'memorise = "go on"',
+            "study.toml, interruption.memorise: 'go on' is none of the values that are allowed. "
+            "Choose from continue, void",
+        ),
+        (
             "texts.toml", 'go_on = "continue"', "go_on = 3",
             "texts.toml, words.go_on: this must be text in quotes, not a whole number",
         ),
@@ -228,6 +238,15 @@ def test_a_mistake_in_a_file_is_told_in_plain_words(
 ) -> None:
     with pytest.raises(AnaError, match=re.escape(told)):
         edit(folder, name, before, after)
+
+
+@pytest.mark.parametrize("name", ["study.toml", "texts.toml", "forms.toml", "instructions.toml"])
+def test_a_file_that_is_no_utf_8_is_told_as_such(folder: Path, name: str) -> None:
+    path = folder / name
+    path.write_bytes(path.read_text("utf-8").encode("utf-16"))
+    told = f"{name}: the file is not UTF-8 text. Save it again as UTF-8"
+    with pytest.raises(AnaError, match=re.escape(told)):
+        open_study(folder)
 
 
 def test_a_doubled_id_is_told_with_its_lines(folder: Path) -> None:

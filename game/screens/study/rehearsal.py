@@ -50,7 +50,7 @@ from game.study.texts import Consent, Page, filled, preceded
 from game.world.building import Building
 
 MOST_VIEWS = 40
-"""So many times a page is scrolled on at most."""
+"""So many times a page that is no form is scrolled on at most."""
 
 
 Make = Callable[[], Screen[Any]]
@@ -112,7 +112,8 @@ async def shown(
     drawn: list[str] = []
     async with app.opened(make) as screen:
         await pilot.pause()
-        for _ in range(MOST_VIEWS):
+        most = len(screen.sheet.items) + 1 if isinstance(screen, FormScreen) else MOST_VIEWS
+        for _ in range(most):
             view = painted(app)
             if view in views:
                 break

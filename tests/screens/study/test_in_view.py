@@ -17,7 +17,7 @@ from game.journal.records import Envelope, QuestionnaireAnswer
 from game.screens.study.base import Frame, StudyScreen
 from game.screens.study.choice import ChoiceScreen
 from game.screens.study.form_screen import TYPED_S, FormScreen
-from game.screens.study.rehearsal import Make, Showing, painted
+from game.screens.study.rehearsal import Make, Showing, painted, shown
 from game.screens.study.standing_head import MORE
 from game.screens.widgets.theme import LOOK
 from game.study.protocol.study_session import StudySession
@@ -157,6 +157,15 @@ async def test_what_a_question_is_about_stays_in_sight() -> None:
     assert long.startswith(last[1].strip().removesuffix(MORE))
     for view in seen:
         assert sum(line.strip() == PAGE.title for line in view) == 1
+
+
+async def test_a_form_of_many_questions_is_looked_at_to_its_end() -> None:
+    frame, many = Frame(ScreenSize(), WORDS), scales(45)
+    sheet = Sheet(cast(StudySession, Session()), many)
+    async with Showing(LOOK).run_test(size=(120, 40)) as pilot:
+        words = " ".join(question.text for question in many)
+        page = await shown(pilot, "", lambda: FormScreen(frame, PAGE, sheet), words, pictures=False)
+    assert page.missing == ()
 
 
 async def test_digits_belong_together_for_a_while_and_each_is_recorded() -> None:
