@@ -72,7 +72,7 @@ def test_a_form_is_typed_and_its_scales_have_its_answers() -> None:
         ('item = "well"', 'item = "warm"', "no earlier item has this id"),
         (", is = 2", "", "give is, at_least or at_most"),
         ('["no", "yes"]', '["no", "no"]', "the answers must differ"),
-        ('answers = ["no", "yes"]', "", "well has 0 answers"),
+        ('answers = ["no", "yes"]', "", "well must have from 2 to 40 answers, not 0"),
         (
             "Are you well?",
             "Are you well, {instructor}?",
