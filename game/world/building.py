@@ -39,6 +39,11 @@ class Door:
 
     cells: tuple[Cell, ...]
 
+    @cached_property
+    def beside(self) -> frozenset[Cell]:
+        """The cells next to its own, its own among them where there are several."""
+        return frozenset(way.from_cell(cell) for cell in self.cells for way in Heading)
+
 
 @dataclass(frozen=True)
 class VictimSite:

@@ -45,9 +45,11 @@ def _numbers(plan: Plan, digits: list[int]) -> Floodfill:
     size = len(plan.tiles)
     lanes = bytearray(2 * size)
     for lane in (0, 1):
-        number = 0
+        number, before, flags = 0, -1, 0
         for place, mask in enumerate(digits[lane * _BYTE : (lane + 1) * _BYTE]):
-            number |= int.from_bytes(plan.flags(mask)) << place
+            if mask != before:
+                before, flags = mask, int.from_bytes(plan.flags(mask))
+            number |= flags << place
         first = lane if sys.byteorder == "little" else 1 - lane
         lanes[first::2] = number.to_bytes(size)
     return array("H", bytes(lanes))

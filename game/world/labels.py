@@ -112,13 +112,16 @@ def _wrappings(words: Sequence[str]) -> Iterator[tuple[str, ...]]:
 def _axes(texts: Sequence[str], top: int, rows: dict[int, frozenset[int]]) -> list[int]:
     """The axes, in half columns, on which the texts can be centred from row `top` down."""
     free = [rows.get(row, frozenset[int]()) for row in range(top, top + len(texts))]
-    if not all(free):
-        return []
-    return [
-        axis
-        for axis in range(2 * min(map(min, free)), 2 * max(map(max, free)) + 3)
-        if all(
-            columns.issuperset(range(left := (axis - len(text)) // 2, left + len(text)))
-            for columns, text in zip(free, texts, strict=True)
-        )
+    fitting = [
+        {2 * left + len(text) + half for left in _lefts(columns, len(text)) for half in (0, 1)}
+        for columns, text in zip(free, texts, strict=True)
     ]
+    return sorted(set.intersection(*fitting))
+
+
+def _lefts(columns: frozenset[int], length: int) -> set[int]:
+    """The columns from which so many are free."""
+    lefts = set(columns)
+    for offset in range(1, length):
+        lefts &= {column - offset for column in columns}
+    return lefts

@@ -7,7 +7,7 @@ at the usual pace.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 from random import Random
@@ -88,9 +88,13 @@ def reached(floodfills: Floodfills, start: Cell, lying: Lying, longer_ms: int = 
     )
     sites = {site.id: site for site in numbered(lying)}
     planner = RoutePlanner(floodfills, settings, sites)
-    route = planner.plan(start, 0, sites, ms_per_move=settings.pace_ms)
-    reds = sum(sites[victim].severity is Severity.RED for victim in route.order)
-    return Reached(reds, len(route.order) - reds)
+    pace_ms = settings.pace_ms
+    if planner.reaches_all(start, 0, sites, ms_per_move=pace_ms):
+        rescued: Collection[str] = sites
+    else:
+        rescued = planner.plan(start, 0, sites, ms_per_move=pace_ms).order
+    reds = sum(sites[victim].severity is Severity.RED for victim in rescued)
+    return Reached(reds, len(rescued) - reds)
 
 
 def with_victims(building: Building, lying: Lying) -> Building:

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
+from itertools import compress
 
 from game.world.geometry import Cell
 
@@ -24,6 +25,10 @@ class Tile(IntEnum):
 
 _DIGITS = bytes(code & 1 for code in range(256))
 """Translates the digits `0` and `1` of a text to the bytes 0 and 1."""
+
+
+_FEW = 200
+"""So many cells of a mask are sooner found one by one than by looking at all."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +74,16 @@ class Plan:
             mask |= 1 << (y * self.width + x)
         return mask
 
+    def mask_of(self, *tiles: Tile) -> int:
+        """The mask of the cells that are one of these."""
+        digits = bytes(b"01"[value in tiles] for value in range(256))
+        return int(self.tiles[::-1].translate(digits), 2)
+
     def cells(self, mask: int) -> Iterator[Cell]:
         """The cells of `mask`, row by row."""
+        if mask.bit_count() > _FEW:
+            yield from compress(self._every_cell, self.flags(mask))
+            return
         while mask:
             lowest = mask & -mask
             yield self.cell(lowest.bit_length() - 1)
@@ -87,6 +100,11 @@ class Plan:
         return (mask & east) << 1 | (mask & west) >> 1 | mask << width | mask >> width
 
     @cached_property
+    def _every_cell(self) -> tuple[Cell, ...]:
+        """All cells, by index."""
+        return tuple((x, y) for y in range(self.height) for x in range(self.width))
+
+    @cached_property
     def _not_at_the_side(self) -> tuple[int, int]:
         """The masks of all cells but the last, and all but the first, of each row."""
         row = (1 << (self.width - 1)) - 1
@@ -95,7 +113,7 @@ class Plan:
 
     @cached_property
     def walkable_mask(self) -> int:
-        return sum(1 << i for i, tile in enumerate(self.tiles) if tile != Tile.WALL)
+        return self.mask_of(Tile.FLOOR, Tile.DOOR)
 
     @cached_property
     def neighbours(self) -> tuple[tuple[int, ...], ...]:

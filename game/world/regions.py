@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from game.world.building import Door
-from game.world.geometry import Cell, Heading
+from game.world.geometry import Cell
 from game.world.plan import Plan, Tile
 
 Region = tuple[Cell, ...]
@@ -14,12 +14,12 @@ Region = tuple[Cell, ...]
 
 def floor_regions(plan: Plan) -> tuple[Region, ...]:
     """The connected floor regions, doors excluded, in row order of their first cells."""
-    return tuple(_connected(plan, _mask_of(plan, Tile.FLOOR)))
+    return tuple(_connected(plan, plan.mask_of(Tile.FLOOR)))
 
 
 def doorways(plan: Plan) -> tuple[Door, ...]:
     """Every group of adjacent door cells, in row order of their first cells."""
-    return tuple(Door(cells) for cells in _connected(plan, _mask_of(plan, Tile.DOOR)))
+    return tuple(Door(cells) for cells in _connected(plan, plan.mask_of(Tile.DOOR)))
 
 
 def reachable(plan: Plan, start: Cell) -> frozenset[Cell]:
@@ -30,11 +30,7 @@ def reachable(plan: Plan, start: Cell) -> frozenset[Cell]:
 def doors_of(region: Iterable[Cell], doors: tuple[Door, ...]) -> tuple[int, ...]:
     """The indices of the doors that open onto `region`."""
     cells = frozenset(region)
-    return tuple(
-        number
-        for number, door in enumerate(doors)
-        if any(heading.from_cell(cell) in cells for cell in door.cells for heading in Heading)
-    )
+    return tuple(number for number, door in enumerate(doors) if not cells.isdisjoint(door.beside))
 
 
 def label_cell(region: Region) -> Cell:
@@ -49,12 +45,6 @@ def label_cell(region: Region) -> Cell:
         return (cell[0] * count - sum_x) ** 2 + (cell[1] * count - sum_y) ** 2
 
     return min(region, key=squared_distance)
-
-
-def _mask_of(plan: Plan, tile: Tile) -> int:
-    """The mask of the cells that are `tile`."""
-    digits = bytes(b"01"[value == tile] for value in range(256))
-    return int(plan.tiles[::-1].translate(digits), 2)
 
 
 def _connected(plan: Plan, mask: int) -> Iterator[Region]:

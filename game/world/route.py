@@ -96,6 +96,13 @@ class RoutePlanner:
         best = search.best(before, Random(f"route {self._seed}"))
         return search.route(search.nearest_first(best, PASSING_BY_MOVES * ms_per_move), waiting)
 
+    def reaches_all(
+        self, position: Cell, time_ms: int, waiting: Collection[str], *, ms_per_move: int
+    ) -> bool:
+        """Whether `plan` is soon seen to rescue everybody; where not, it may rescue them still."""
+        search = self._search(position, time_ms, waiting, ms_per_move)
+        return len(search.earliest_due()) == len(waiting)
+
     def along(
         self, order: Sequence[str], position: Cell, time_ms: int, *, ms_per_move: int
     ) -> Route:
@@ -129,7 +136,8 @@ class RoutePlanner:
     def _stand(self, name: str) -> int:
         plan = self._plan
         beside = plan.neighbours[plan.index(self._sites[name].cell)]
-        return min(beside, key=lambda index: sum(to[index] for to in self._to.values()))
+        everybody = self._to.values()
+        return min(beside, key=lambda index: sum([to[index] for to in everybody]))
 
     def _moves_from(self, index: int) -> dict[str, int]:
         """Moves from a cell until each victim is in reach."""
@@ -167,14 +175,22 @@ class _Search:
     def best(self, before: Iterable[str], random: Random) -> _Order:
         """The best order found from two starts: one that puts in the earliest deadlines first, and
         the order followed `before` (a random one where there is none)."""
-        n = len(self.names)
-        numbers = sorted(range(n), key=lambda i: (self.due[i], self.travel[n][i]))
-        first = self._improved(self._inserted((), numbers))
+        numbers = self._by_due()
+        first = self._improved(self.earliest_due())
         followed = self.served(self.numbered(before))
         if not followed:
             random.shuffle(numbers)
         second = self._improved(self._inserted(followed, numbers))
         return self._exchanged(max(first, second, key=self.value))
+
+    def earliest_due(self) -> _Order:
+        """An order to begin with, into which the earliest deadlines are put first. Those whom it
+        rescues outweigh none of the best."""
+        return self._inserted((), self._by_due())
+
+    def _by_due(self) -> list[int]:
+        n = len(self.names)
+        return sorted(range(n), key=lambda i: (self.due[i], self.travel[n][i]))
 
     def nearest_first(self, order: _Order, spare_ms: int) -> _Order:
         """`order` begun with the nearest of its victims, if that saves as many and takes no more

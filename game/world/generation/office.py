@@ -97,7 +97,7 @@ def _office(name: str, random: Random) -> Building | None:
     if rooms is None or sum(len(room.floor) for room in rooms) not in _FLOOR:
         return None
     plan = _plan(corridors, doors, (room.floor for room in rooms))
-    if plan.mask(reachable(plan, entry.start)) != plan.walkable_mask:
+    if len(reachable(plan, entry.start)) != plan.walkable_mask.bit_count():
         return None
     marks = tuple(RoomMark(room.name, (label_cell(room.floor),), line=1) for room in rooms)
     starts = ((entry.start, entry.facing),)
