@@ -100,6 +100,8 @@ def test_a_route_holds_every_victim_once_and_is_in_time(
         spare_ms = SPARE_MOVES * PACE if of[victim].severity is Severity.RED else 0
         assert at_ms < done_ms <= due_ms(of[victim]) - spare_ms
     assert route.worth == sum(WEIGHTS[of[victim].severity] for victim in route.order)
+    if planner.reaches_all(position, at_ms, waiting, ms_per_move=PACE):
+        assert not route.left_out
 
 
 @given(situations(), st.integers(0, 99))
