@@ -19,6 +19,7 @@ from game.coach.compliance import NOTHING_ASKED, STRICT_LEVELS, fits, reached, t
 from game.coach.instructions import Instruction, Pose, Scene, instruct
 from game.coach.instructions.told import ToldWay
 from game.world.building import Room
+from game.world.geometry import Cell
 from game.world.observation import Guidance, Observation
 
 
@@ -51,6 +52,7 @@ class Bar:
         self._ahead: set[Pose] = set()
         self._compliance = NOTHING_ASKED
         self._treated_instead: set[str] = set()
+        self._at: Cell = (0, 0)
         self._left: int | None = None
         self._explored = 0
 
@@ -82,6 +84,7 @@ class Bar:
         told = ToldWay(scene, instruction)
         self.shown = OnBar(instruction, self._number, at_ms, reason, told, notice)
         self.open = True
+        self._at = pose.cell
         self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)
         self._ahead = set(self._track) - {pose}
@@ -120,8 +123,10 @@ class Bar:
         """The rescuer acted and is `distance` from the goal now; a notice that has clearly been
         understood goes."""
         assert self.shown is not None
-        nearer = self._comes_nearer(self.shown.told, observation)
-        self._compliance = self._compliance.acted(distance, at_ms, nearer=nearer)
+        told, position = self.shown.told, observation.position
+        nearer, follows = self._comes_nearer(told, observation), told.follows(self._at, position)
+        self._at = position
+        self._compliance = self._compliance.acted(distance, at_ms, nearer=nearer, follows=follows)
         if not (self._compliance.heeded and self.guidance.notice):
             return None
         self.guidance = Guidance(self.shown.instruction.text)

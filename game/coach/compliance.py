@@ -47,7 +47,8 @@ class Compliance:
     """The walk since an instruction was issued at `level` (the shown one).
 
     `most`, `least` and `distance` are the largest cost-to-go since then, the smallest and the
-    present one; `rising` is whether the last action raised it, which happened at `at_ms`. Until
+    present one; `rising` is whether the last action raised it other than on the way that was told,
+    which happened at `at_ms`. Until
     `read_ms` the words cannot have been read; until `notice_ms` no notice may replace the last;
     `nearer_ms` is when the rescuer last came nearer, or was told something new, and `patience_ms`
     how long after that they are lost. `warned` is whether a strict misstep was corrected since an
@@ -103,9 +104,12 @@ class Compliance:
     def completed(self) -> Compliance:
         return replace(self, warned=False)
 
-    def acted(self, distance: int, at_ms: int, *, nearer: bool = False) -> Compliance:
-        """After a move, bump or turn at `at_ms` that leaves `distance` cells to go. `nearer` is
-        whether it was progress on the way that was told, even if the distance says otherwise."""
+    def acted(
+        self, distance: int, at_ms: int, *, nearer: bool = False, follows: bool = False
+    ) -> Compliance:
+        """After a move, bump or turn at `at_ms` that leaves `distance` cells to go. Even if the
+        distance says otherwise, `nearer` is whether it was progress on the way that was told, and
+        `follows` whether it went that way."""
         progress = nearer or distance < self.least
         return Compliance(
             self.level,
@@ -113,7 +117,7 @@ class Compliance:
             least=min(self.least, distance),
             distance=distance,
             at_ms=at_ms,
-            rising=distance > self.distance,
+            rising=distance > self.distance and not follows,
             read_ms=self.read_ms,
             notice_ms=self.notice_ms,
             nearer_ms=at_ms if progress else self.nearer_ms,

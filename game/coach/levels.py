@@ -30,9 +30,14 @@ def preferring(before: int, want: LevelWish) -> int:
     return min(MOST_PREFERENCE, max(-MOST_PREFERENCE, after))
 
 
-def opposite(occasion: str, before: Level, after: Level) -> bool:
-    """Whether a change of level is the opposite of what the rescuer asked for on this occasion."""
-    return after > before if occasion == "simpler" else occasion == "shorter" and after < before
+def granted(want: LevelWish, before: Level, chosen: Level | None = None) -> Level:
+    """The level that answers a request: the one that the coach would have `chosen`, if it lies on
+    the side that was asked for, else the next one there; the same where there is none."""
+    if want == "simpler":
+        nearest = _moved(before, "lower")
+        return nearest if chosen is None else min(nearest, chosen)
+    nearest = _moved(before, "raise")
+    return nearest if chosen is None else max(nearest, chosen)
 
 
 def thresholds(preset: Preset, preference: int) -> tuple[float, float]:
@@ -92,12 +97,16 @@ class LevelState:
         return self._at(_moved(self.level, said), went_down=said == "lower")
 
     def lowered(self) -> LevelState:
-        """The state after the rescuer was found lost: one level down, and not up at the goal."""
+        """The state after the rescuer was found lost or astray: one level down, and not up at the
+        goal."""
         return self._at(_moved(self.level, "lower"), went_down=True)
 
     def asked(self, want: LevelWish) -> LevelState:
-        """The state after the rescuer has asked for other words."""
-        return replace(self, preference=preferring(self.preference, want))
+        """The state after the rescuer has asked for other words: one level that way, and a
+        preference for it; after simpler words not up at the goal."""
+        preference = preferring(self.preference, want)
+        level, simpler = granted(want, self.level), want == "simpler"
+        return LevelState(level, went_down=simpler, preference=preference)
 
     def given_up(self) -> LevelState:
         """The state with which the next goal begins after one that was given up: the level stays,

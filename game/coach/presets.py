@@ -59,7 +59,8 @@ class Preset(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     so that only leaving that way speaks against them; needs `cost_difference`, whose factors are
     at most 1."""
     lowers_when_lost: bool = False
-    """One level down when the rescuer has not come nearer for too long."""
+    """One level down when the rescuer has not come nearer for too long, or goes astray at C3, where
+    to be told the name again is no help."""
     agreement: int = 1
     """So many consecutive evaluations within a goal must agree before the level changes."""
     raise_only_at_goal_end: bool = False

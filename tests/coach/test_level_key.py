@@ -1,4 +1,4 @@
-"""The level key: recorded by every coach, and never answered by its opposite."""
+"""The level key: recorded by every coach, granted by every one that adapts."""
 
 from __future__ import annotations
 
@@ -9,11 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from game.coach.acts import KnowledgeJudged, Level, LevelChanged, PosteriorEvaluated
-from game.coach.levels import MOST_PREFERENCE, SHIFT, preferring, thresholds
+from game.coach.acts import (
+    InstructionIssued,
+    KnowledgeJudged,
+    Level,
+    LevelChanged,
+    PosteriorEvaluated,
+)
+from game.coach.levels import MOST_PREFERENCE, SHIFT, granted, preferring, thresholds
 from game.coach.presets import FLOODFILL, PRESETS
 from game.coach.spec import CoachSpec
-from game.world.events import LevelAsked, LevelWish
+from game.world.events import Action, LevelAsked, LevelWish, TreatmentStarted
 from game.world.settings import FREE_PLAY, MissionSettings
 from tests.coach.scripted import (
     ADAPTIVE,
@@ -36,6 +42,11 @@ def named(spec: CoachSpec) -> str:
     return f"{spec.kind}-{spec.preset or spec.level}"
 
 
+def said(game: Game) -> Level:
+    """The level in force."""
+    return only(InstructionIssued, game.records)[-1].level
+
+
 def ask(game: Game, want: LevelWish) -> list[object]:
     before = len(game.records)
     game.run.ask_level(want, game.now_ms)
@@ -43,18 +54,32 @@ def ask(game: Game, want: LevelWish) -> list[object]:
 
 
 @pytest.mark.parametrize("spec", EVERY, ids=named)
-def test_no_request_is_answered_by_its_opposite(spec: CoachSpec) -> None:
+def test_a_coach_that_adapts_grants_every_request_at_once(spec: CoachSpec) -> None:
     game = Game(spec, PRACTICE, FREE_PLAY)
+    last = {"simpler": Level.C1, "shorter": Level.C3}
     for step in range(60):
         game.act(nearer(game) if step % 7 else away(game))
         if step % 4 == 0:
             want = WISHES[step // 12 % 2]
+            before = said(game)
             asked, *then = ask(game, want)
             assert asked == LevelAsked(game.now_ms, want)
-            for changed in then:
-                if isinstance(changed, LevelChanged):
-                    assert (changed.after < changed.before) == (want == "simpler")
+            after = said(game)
+            if spec.level is not None or before is last[want]:
+                assert after is before
+            else:
+                assert (after < before) == (want == "simpler") and after is not before
+            changes = [it for it in then if isinstance(it, LevelChanged)]
+            assert [(it.before, it.after) for it in changes] == [(before, after)] * len(changes)
+            assert bool(changes) == (after is not before)
     check_records(game, spec)
+
+
+@given(st.sampled_from(WISHES), st.sampled_from(Level), st.sampled_from([None, *Level]))
+def test_what_is_granted(want: LevelWish, before: Level, chosen: Level | None) -> None:
+    there = [it for it in Level if (it < before if want == "simpler" else it > before)]
+    nearest = (max if want == "simpler" else min)(there, default=before)
+    assert granted(want, before, chosen) is (chosen if chosen in there else nearest)
 
 
 @pytest.mark.parametrize("spec", [*STATIC, PACE], ids=named)
@@ -72,7 +97,8 @@ def test_ana_shifts_both_thresholds(spec: CoachSpec) -> None:
         game = Game(spec, PRACTICE, FREE_PLAY)
         ask(game, "simpler" if want == "simpler" else "shorter")
         while not (evaluated := only(PosteriorEvaluated, game.records)):
-            game.act(nearer(game))
+            if only(TreatmentStarted, game.act(nearer(game), Action.TRIAGE)):
+                game.wait(game.settings.treat_red_ms)
         shifted = evaluated[0].lower_below, evaluated[0].raise_above
         assert shifted == thresholds(preset, sign)
         low, high = shifted

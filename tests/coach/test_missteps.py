@@ -63,10 +63,15 @@ def test_a_few_steps_astray_at_c2_are_left_alone() -> None:
 
 
 def test_a_misstep_always_has_a_correction() -> None:
-    game = Game(STATIC[2], GALLERY)
-    happened = game.act(*[E] * 9, *[W] * 8)
+    game = Game(STATIC[2], LONG)
+    game.wait(TO_READ_MS)
+    happened = game.act(*[E] * 8)
     assert only(Misstep, happened)[0].excess == 8
     assert [record.notice for record in only(InstructionIssued, happened)] == [WRONG_WAY]
+
+
+def test_to_look_round_in_the_room_that_was_named_is_no_misstep() -> None:
+    assert not only(Misstep, Game(STATIC[2], GALLERY).act(*[E] * 9, *[W] * 9))
 
 
 def test_whoever_strays_to_another_victim_is_led_there() -> None:

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 from hypothesis import given, settings
 
-from game.coach.acts import Level, LevelChanged, LostNoticed, PosteriorEvaluated
+from game.coach.acts import Level, LevelChanged, LostNoticed, Misstep, PosteriorEvaluated
 from game.coach.kinds.ana import Ana
 from game.coach.presets import CALIBRATED, FLOODFILL, Preset
 from game.coach.spec import CoachSpec
@@ -90,6 +90,7 @@ def test_in_the_shipped_buildings(
     assert FLOODFILL.prior_mass is not None
     assert all(it.comprehension >= FLOODFILL.prior_mass - 1e-9 for it in evaluated)
     assert not only(LostNoticed, records)
+    assert not only(Misstep, records)
     assert not lowered(records)
 
 

@@ -66,7 +66,7 @@ PLACES = {room.name: room.label for room in office().rooms}
         ("Exit by the door ahead.", TakeDoorAhead()),
         ("Enter the room.", LeaveDoorway()),
         ("Enter the hallway.", LeaveDoorway()),
-        ("Exit the room.", ExitRoom()),
+        ("Exit by the nearest door.", ExitRoom()),
         ("Approach and save the red victim.", Approach(Severity.RED)),
         ("Go to the Records Room.", GoTo("the Records Room")),
         ("Triage the blue victim.", Triage(Severity.BLUE)),

@@ -187,7 +187,7 @@ def test_whoever_plays_the_mission_ends(
 
 
 def test_nobody_presses_a_key_before_the_first_sentence_is_read() -> None:
-    for text, words in (("Walk forward 2 steps. Stop.", 4), ("Exit the room.", 3)):
+    for text, words in (("Walk forward 2 steps. Stop.", 4), ("Exit by the nearest door.", 5)):
         first = next(
             observation.time_ms
             for observation, decided in watched(HARBOUR, text)

@@ -58,8 +58,10 @@ class Ana(Guide[LevelState]):
                 self._next_choice_ms = at_ms + preset.every_ms
             case "lost" if preset.lowers_when_lost:
                 return self._enter(self.state.lowered(), at_ms, judged=False)
+            case "misstep" if preset.lowers_when_lost and self.level is Level.C3:
+                return self._enter(self.state.lowered(), at_ms, judged=False)
             case "simpler" | "shorter":
-                self.state = self.state.asked(occasion)
+                return self._enter(self.state.asked(occasion), at_ms, judged=False)
         if occasion not in _OCCASIONS[preset.evaluate]:
             return []
         comprehension = self.cycle.evaluate().belief.comprehension

@@ -13,7 +13,7 @@ from game.coach.instructions import Pose
 from game.coach.kinds.knowledge import DecisionPoint, LevelChoice, hopeful, judged
 from game.coach.knowledge.assumed import ASSUMED, Assumed
 from game.coach.knowledge.learner import KnowledgeLearner
-from game.coach.levels import opposite, thresholds, verdict
+from game.coach.levels import granted, thresholds, verdict
 from game.coach.model import Component, HumanModel
 from game.coach.presets import Preset
 from game.world.geometry import Cell
@@ -48,8 +48,10 @@ class BeliefThresholds:
         if point.occasion == "goal":
             chance = hopeful(chance, known.share_sd, self.assumed.belief_optimism)
         said = verdict(chance, *thresholds(self.preset, state.preference))
-        kept = opposite(point.occasion, state.level, _LEVELS[said])
-        return state if kept else replace(state, level=_LEVELS[said])
+        level = _LEVELS[said]
+        if point.occasion == "simpler" or point.occasion == "shorter":
+            level = granted(point.occasion, state.level, level)
+        return replace(state, level=level)
 
 
 class AnaByBelief(Guide[LevelChoice]):

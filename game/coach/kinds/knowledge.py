@@ -15,7 +15,7 @@ from game.coach.instructions import Pose, Scene
 from game.coach.knowledge.assumed import ASSUMED, Assumed, QuizMark
 from game.coach.knowledge.learner import KnowledgeLearner
 from game.coach.knowledge.times import LED, Habits, LegTimes
-from game.coach.levels import opposite, preferring
+from game.coach.levels import granted, preferring
 from game.coach.model import Component, HumanModel, KnownRooms, Reward
 from game.world.events import LevelWish
 from game.world.geometry import Cell
@@ -81,24 +81,23 @@ class SoonestLevel:
         known: KnownRooms,
         led_ms: dict[Level, float],
     ) -> LevelChoice:
-        """The level by which the goal is reached soonest; the one in force if that is as good. What
-        the rescuer has asked for counts like time, and a request is not answered by its opposite.
-        """
+        """The level by which the goal is reached soonest; the one in force if that is as good. A
+        request is granted, and counts like time from then on."""
         expected_ms = dict(led_ms)
         at_c3 = self._by_name(point, model, known, min(led_ms.values()))
         if at_c3 is not None:
             expected_ms[Level.C3] = at_c3
-        best, asked = self._liked(expected_ms, state), point.occasion in ("simpler", "shorter")
-        if asked and opposite(point.occasion, state.level, best):
-            best = state.level
+        best = self._liked(expected_ms, state)
+        if point.occasion == "simpler" or point.occasion == "shorter":
+            level = granted(point.occasion, state.level, best)
+            return replace(state, level=level, expected_ms=expected_ms, why="asked")
         in_force_ms = expected_ms.get(state.level, inf) + self._dislike_ms(state.level, state)
         best_ms = expected_ms[best] + self._dislike_ms(best, state)
-        least_ms = 0.0 if asked else self._assumed.switch_gain_ms
-        if best is state.level or round(in_force_ms - best_ms, DECIMALS) <= least_ms:
+        gain_ms = round(in_force_ms - best_ms, DECIMALS)
+        if best is state.level or gain_ms <= self._assumed.switch_gain_ms:
             why: ChoiceReason = "soonest" if best is state.level else "stays"
             return replace(state, expected_ms=expected_ms, why=why)
-        why = "asked" if asked else "soonest"
-        return replace(state, level=best, expected_ms=expected_ms, why=why)
+        return replace(state, level=best, expected_ms=expected_ms, why="soonest")
 
     def _dislike_ms(self, level: Level, state: LevelChoice) -> float:
         """What the rescuer's preference adds to the expected time of `level`."""

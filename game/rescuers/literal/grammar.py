@@ -151,7 +151,7 @@ _PATTERNS: tuple[tuple[str, Callable[..., Sentence]], ...] = (
     ),
     (r"(?:Enter|Exit by) the door ahead", TakeDoorAhead),
     (r"Enter the (?:room|hallway)", LeaveDoorway),
-    (r"Exit the room", ExitRoom),
+    (r"Exit by the nearest door", ExitRoom),
     (r"Approach and save the (red|blue) victim", lambda colour: Approach(Severity(colour))),
     (r"Go to (.+)", GoTo),
     (r"Triage the (red|blue) victim", lambda colour: Triage(Severity(colour))),

@@ -73,7 +73,7 @@ def mission_keys(rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[tupl
         walking = [(label("up"), "walk"), (f"{label('left')}{label('right')}", "turn")]
     else:
         walking = [(keys.walking or "↑↓←→", "walk")]
-    words = [(f"{label('simpler')} {label('shorter')}", "wording")] if rules.level_key else []
+    words = [(f"{label('simpler')} {label('shorter')}", "detail")] if rules.level_key else []
     pause = [(label("pause"), "pause")] if rules.allow_pause else []
     others = [(label("treat"), "treat"), (label("help"), "help"), (label("leave"), "leave")]
     return [*walking, *others, *pause, *words]

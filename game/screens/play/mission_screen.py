@@ -251,17 +251,20 @@ class MissionScreen(LiveScreen):
             self.live.press(action)
         self.refresh_view()
 
-    def asked_words(self, want: LevelWish) -> str:
-        """What is shown when the level key has been pressed."""
-        return f"You asked for {want} words"
+    def asked_words(self, want: LevelWish, *, answered: bool) -> str:
+        """What is shown when the level key has been pressed; `answered` is whether the bar says
+        something else now."""
+        return f"You asked for {want} words" if answered else "The coach keeps these words"
 
     def action_ask(self, want: LevelWish) -> None:
         if self._over:
             return
+        before = self.live.observation().guidance
         with self.kept():
             self.live.ask_level(want)
         self.refresh_view()
-        self.tell(self.asked_words(want))
+        answered = self.live.observation().guidance != before
+        self.tell(self.asked_words(want, answered=answered))
 
     def tell(self, text: str) -> None:
         """Show a text for `ASKED_S`, in a corner."""

@@ -107,7 +107,7 @@ class StudyMissionScreen(MissionScreen):
         if self.live.task.done:
             self._finish()
 
-    def asked_words(self, want: LevelWish) -> str:
+    def asked_words(self, want: LevelWish, *, answered: bool) -> str:
         return self.level_key.of(want)
 
     def action_help(self) -> None:

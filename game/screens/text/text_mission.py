@@ -256,8 +256,10 @@ class TextMission:
         if not self._run.mission.settings.level_key:
             self._say("The coach cannot be asked in this mission.")
             return
+        before = self._run.observation().guidance
         self._run.ask_level(want, self._now_ms)
-        self._say(f"You asked for {want} words.")
+        answered = self._run.observation().guidance != before
+        self._say(f"You asked for {want} words." if answered else "The coach keeps these words.")
         self._report()
 
     def _act(self, action: Action) -> None:

@@ -63,7 +63,7 @@ class Listener:
             yield from self._through()
         elif sentence.startswith("Proceed to the end"):
             yield from self._type("f end")
-        elif sentence == "Exit the room":
+        elif sentence == "Exit by the nearest door":
             yield from self._to_the_nearest(_DOOR, onto=True)
             yield from self._beyond()
         elif found := re.fullmatch(r"Proceed until you see a (\w+) victim", sentence):
