@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Final
 
 from game.screens.play.mission_story import MissionStory
@@ -20,7 +20,7 @@ from game.screens.widgets.minimap import (
     map_size,
 )
 from game.screens.widgets.statuspanel import clock_text
-from game.world.building import VictimSite
+from game.world.building import Severity, VictimSite
 from game.world.geometry import Cell, Heading
 from game.world.labels import HALF_BLOCKS as LABEL_SCALE
 from game.world.labels import label_lines
@@ -40,9 +40,8 @@ _DOT_EVERY = 4
 _MEANINGS = {
     VictimState.RESCUED: "rescued",
     VictimState.EXPIRED: "died",
-    VictimState.WAITING: "{severity}, not reached",
+    VictimState.WAITING: "not reached",
 }
-_ORDER = list(_MEANINGS)
 END: Final[Pin] = "■", "here/here"
 
 
@@ -144,18 +143,29 @@ def way_legend(story: MissionStory, columns: int, *, filled: bool) -> list[Row]:
     full = clock_text(story.settings.duration_ms)
     time: Row = (("your way 0:00 ", "quiet"), *((sign, ink) for ink in inks), (f" {full}", "quiet"))
     parts: list[Row] = [(start, (" start", "quiet")), (END, (" end", "quiet")), time]
-    return [*_in_rows(parts, columns), *fates_legend(story, columns)]
+    return _in_rows([*parts, *_fates(story)], columns)
 
 
 def fates_legend(story: MissionStory, columns: int) -> list[Row]:
     """What the signs of the victims shown mean, in rows of `columns`."""
+    return _in_rows(_fates(story), columns)
+
+
+def _fates(story: MissionStory) -> Iterator[Row]:
+    """What became of the victims shown: each fate with its signs."""
     shown = [story.fates[victim] for victim in sorted(story.revealed)]
-    signs = {(fate.state, *victim_pin(fate.victim, fate.state)): fate.victim for fate in shown}
-    parts: list[Row] = []
-    for (state, sign, ink), victim in sorted(signs.items(), key=lambda it: _ORDER.index(it[0][0])):
-        meaning = _MEANINGS[state].replace("{severity}", str(victim.severity))
-        parts.append(((sign, f"{ink}/dark"), (f" {meaning}", "quiet")))
-    return _in_rows(parts, columns)
+    for state, meaning in _MEANINGS.items():
+        signs = dict.fromkeys(
+            victim_pin(site, state)
+            for site in sorted((it.victim for it in shown if it.state is state), key=_reds_first)
+        )
+        if signs:
+            drawn = [((sign, f"{ink}/dark"), (" ", "")) for sign, ink in signs]
+            yield (*chain.from_iterable(drawn), (meaning, "quiet"))
+
+
+def _reds_first(site: VictimSite) -> bool:
+    return site.severity is not Severity.RED
 
 
 def _in_rows(parts: Iterable[Row], columns: int) -> list[Row]:

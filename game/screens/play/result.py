@@ -163,7 +163,11 @@ def result_rows(
     if len(head) + len(area) + 2 <= rows:
         head = [BLANK, *head, BLANK]
     lines = rows - len(head)
-    more = said_rows(story, area_columns - 2) if constant else fate_rows(story, area_columns - 2)
+    beneath = lines - len(area) - 1
+    if constant:
+        more = _as_fits(said_rows(story, area_columns - 2), beneath, "Said")
+    else:
+        more = _as_fits(fate_rows(story, area_columns - 2), beneath, "People")
     left = [*area, BLANK, *more][:lines]
     right = _beside_the_map(story, wide, lines, constant)[:lines]
     return head + beside(left, right, area_columns)
@@ -195,9 +199,17 @@ def _charts(story: MissionStory, columns: int, lines: int, constant: Row | None)
         across = max(1, (columns - NARROWEST_CHART - 1) // _FATE_COLUMNS)
         wide = columns - across * _FATE_COLUMNS
         chart = [*rescue_chart(story, wide - 2, max(3, lines - 2)), BLANK, constant]
-        return beside(chart, fate_rows(story, columns - wide)[: lines + _FRAME_ROWS], wide)
+        listed = _as_fits(fate_rows(story, columns - wide), lines + _FRAME_ROWS, "People")
+        return beside(chart, listed, wide)
     half = columns // 2
     return beside(rescue_chart(story, half - 2, lines), level_chart(story, half - 1, lines), half)
+
+
+def _as_fits(listed: list[Row], rows: int, page: str) -> list[Row]:
+    """A list in so many rows; where it takes more, the last says on which page all of it is."""
+    if len(listed) <= rows:
+        return listed
+    return [*listed[: max(0, rows - 1)], ((f"… all on the page {page}", "quiet"),)][: max(0, rows)]
 
 
 def said_rows(story: MissionStory, columns: int) -> list[Row]:
@@ -239,9 +251,10 @@ def _beside_the_map(story: MissionStory, wide: int, rows: int, constant: Row | N
     """Both charts, one below the other, over `rows`; where the level is `constant`, the rescues
     one by one in place of its chart."""
     if constant is not None:
-        listed = [BLANK, constant, BLANK, *fate_rows(story, wide)]
-        high = max(_LOW_CHART, min(HIGHEST_CHART, rows - _FRAME_ROWS - len(listed)))
-        return [*rescue_chart(story, wide, high), *listed]
+        fates = fate_rows(story, wide)
+        high = max(_LOW_CHART, min(HIGHEST_CHART, rows - 2 * _FRAME_ROWS - len(fates)))
+        fates = _as_fits(fates, rows - 2 * _FRAME_ROWS - high, "People")
+        return [*rescue_chart(story, wide, high), BLANK, constant, BLANK, *fates]
     lines = rows - 2 * _FRAME_ROWS - 1
     low = next((low for below, low in _LEVEL_ROWS if lines < below), 9)
     high = max(3, min(HIGHEST_CHART, lines - low))

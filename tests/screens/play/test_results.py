@@ -74,6 +74,8 @@ def test_the_first_page_needs_no_scrolling(
     assert f"{story.rescued} of 20 rescued" in page and "A remark" in page and "Rescued" in page
     assert "your way 0:00" in page or "Way" in pages, "the way has a place"
     assert ("stayed at" in page) is constant
+    if 0 < sum(line.count("✓ ●") + line.count("✓ ○") for line in plain(first)) < told.rescued:
+        assert "… all on the page" in page, "no list ends without a word"
 
 
 def test_people_and_words_have_pages_of_their_own(story: MissionStory) -> None:
