@@ -171,8 +171,9 @@ def test_on_the_time_line_a_victim_lost_is_never_hidden(tmp_path: Path, ward: Bu
 
 
 async def test_the_replay_says_what_space_does_now(
-    open_app: Open, tmp_path: Path, ward: Building
+    open_app: Open, tmp_path: Path, ward: Building, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("game.screens.play.replay_screen.FRAME_S", 60.0)
     written = write_two_missions(tmp_path, ward)
     async with open_app(lambda app: app.replay(written)) as (_, pilot):
         replay = await until(pilot, ReplayScreen)
