@@ -162,7 +162,7 @@ def run_battery(
         if study.crossed.levels == COMPLEXITY
         else Absent("it is computed for three static levels; `ana study design` has this design's"),
     }
-    problems = tuple(_problems(study, clustering, anovas))
+    problems = tuple(stopped(study, clustering, anovas))
     notes += why_they_differ(tests, alpha, study.crossed)
     values, reasons = plain(tree)
     if not isinstance(values, dict):
@@ -389,16 +389,23 @@ def preregister(source: Path, out: Path, alpha: float = ALPHA) -> None:
     write_preregistration(source, out, rules, alpha, made)
 
 
-def _problems(
+def stopped(
     study: StudyData, clustering: Clustering | Absent, anovas: Mapping[str, list[Effect] | Absent]
 ) -> list[str]:
+    """What stopped a test that the design has; those that it has not are in a note."""
+    if not study.crossed.has_anova:
+        return []
     problems = []
     if isinstance(clustering, Absent) and study.has("quiz_static"):
         problems.append(f"knowledge groups: {clustering.reason}")
+    outcomes_of: dict[str, list[str]] = {}
+    for outcome, anova in anovas.items():
+        if isinstance(anova, Absent):
+            outcomes_of.setdefault(anova.reason, []).append(outcome)
     problems += [
-        f"{outcome}: the ANOVA is left out: {anova.reason}"
-        for outcome, anova in anovas.items()
-        if isinstance(anova, Absent)
+        f"{', '.join(outcomes)}: the ANOVA{'s are' if len(outcomes) > 1 else ' is'} left out: "
+        f"{reason}"
+        for reason, outcomes in outcomes_of.items()
     ]
     return problems
 

@@ -71,7 +71,7 @@ def _outcome(
     holm = numbers["holm_across_mental_states"]
     lines = [f"{outcome}  (n = {rows['n']}, {rows['n_dropped']} without both rounds or a group)"]
     if rows["anova"] is None:
-        lines.append("  no ANOVA; see the problems below")
+        lines.append("  no ANOVA; the reason stands below")
     else:
         lines.append(
             f"  {'effect':<33}{'df':>6}{'F':>9}{'p':>7}{'p Holm':>8}{'eta_p':>7}{'eta_g':>7}"

@@ -53,6 +53,12 @@ class Crossed:
         return ADAPTIVITY if first == "static" != second else self.instructors
 
     @property
+    def has_anova(self) -> bool:
+        """Whether the design has the paper's mixed ANOVA: everybody has both instructors, and rooms
+        are labelled, which forms the knowledge groups."""
+        return self.rounds > 1 and self.labels
+
+    @property
     def gap(self) -> str:
         """What a difference is of: the second instructor less the first."""
         return " - ".join(reversed(self.words))

@@ -3,6 +3,8 @@
 import json
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analysis.battery import BatteryResult, analyse_source, run_battery
+from analysis.battery import BatteryResult, analyse_source, run_battery, stopped
 from analysis.pages import style
 from analysis.pages.figures import fig8_performance
 from analysis.pages.style import FORMATS
@@ -131,17 +133,18 @@ HARD = {
 }
 
 
-@pytest.mark.parametrize(("damage", "stopped"), HARD.items(), ids=[f.__name__ for f in HARD])
+@pytest.mark.parametrize(("damage", "lost"), HARD.items(), ids=[f.__name__ for f in HARD])
 def test_hard_data_come_out_or_are_refused_by_name(
     battery: Battery,
     table: pd.DataFrame,
     damage: Callable[[pd.DataFrame], pd.DataFrame],
-    stopped: tuple[str, ...],
+    lost: tuple[str, ...],
 ) -> None:
     result, numbers = battery(damage(table))
-    assert [problem.split(":")[0] for problem in result.problems] == list(stopped)
-    assert result.exit_status == (2 if stopped else 0)
-    assert {y for y in OUTCOMES if numbers["outcomes"][y]["anova"] is None} == set(stopped)
+    named = [problem.partition(":")[0].split(", ") for problem in result.problems]
+    assert sorted(chain.from_iterable(named)) == sorted(lost)
+    assert result.exit_status == (2 if lost else 0)
+    assert {y for y in OUTCOMES if numbers["outcomes"][y]["anova"] is None} == set(lost)
     assert set(nulls(numbers)) == set(reasons(numbers))
     assert all(reasons(numbers).values())
     assert result.table()
@@ -171,6 +174,17 @@ def test_an_outcome_may_lose_a_cell_alone(battery: Battery, table: pd.DataFrame)
     holm = numbers["holm_across_mental_states"]["knowledge"]
     p = {y: numbers["outcomes"][y]["anova"][1]["p"] for y in MENTAL_STATES[:3]}
     assert min(holm[y] for y in p) == pytest.approx(min(1, 3 * min(p.values())))
+
+
+def test_one_reason_is_told_once_and_none_for_a_test_that_the_design_has_not(
+    study: StudyData,
+) -> None:
+    reason = Absent("there is nobody")
+    anovas: dict[str, Any] = dict.fromkeys(("victims", "confusion"), reason) | {"engagement": []}
+    told = ["victims, confusion: the ANOVAs are left out: there is nobody"]
+    assert stopped(study, reason, anovas) == [*told]
+    one_round = replace(study, crossed=replace(study.crossed, rounds=1))
+    assert stopped(one_round, reason, anovas) == []
 
 
 @pytest.mark.parametrize("size", [1, 2])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from textual.app import ComposeResult
 from textual.containers import Container
+from textual.geometry import Size
 from textual.widget import Widget
 
 from game.mission_words import ENGLISH, MissionWords
@@ -59,9 +60,13 @@ class MissionView(Container):
     def panel_columns(self) -> int:
         return self.status.size.width
 
-    def divide(self) -> None:
-        """Divide the space again, as when the extra widget has come or gone."""
-        columns, rows = self.size
+    def on_mount(self) -> None:
+        self.divide(self.app.size)
+
+    def divide(self, size: Size | None = None) -> None:
+        """Divide the space of `size`, or of the widget as it is now, as when the extra widget has
+        come or gone."""
+        columns, rows = size or self.size
         extra = self._extra is not None and self._extra.display
         self.set_class(extra, "extra")
         self.set_class((columns >= MIDDLE_COLUMNS or extra) and columns < WIDE_COLUMNS, "middle")
