@@ -141,19 +141,20 @@ def run_participant(folder: Path, participant: str, pilot: bool) -> int:
 def check_study(folder: Path, pictures: Path | None) -> int:
     """Open every page of the study DIR at its size, and try the folder, the disk and the settings.
 
-    Exit status 2 where something would go wrong. Notes name times in the texts that study.toml
-    contradicts.
+    Exit status 2 where something would go wrong. Notes name what the texts say of times and of the
+    design that study.toml contradicts.
     """
     from game.screens.study.pictures import write_pictures
     from game.screens.study.rehearsal import found_wrong
     from game.study.folder import open_study
+    from game.study.lab.stated_design import outdated
     from game.study.lab.stated_times import contradicted
 
     study = open_study(folder)
     wrong, pages = found_wrong(study, pictures=pictures is not None)
     if pictures is not None:
         click.echo(f"{write_pictures(pages, study.settings.name, pictures)}: {len(pages)} pages")
-    doubts = list(contradicted(study))
+    doubts = [*contradicted(study), *outdated(study)]
     for note in (*study.notes, *doubts):
         click.echo(f"note: {note}")
     for one in wrong:

@@ -17,6 +17,7 @@ from game.screens.study.pictures import write_pictures
 from game.screens.study.rehearsal import Rehearsed, rehearsed
 from game.study.folder import Study, StudyError, new_study, open_study
 from game.study.lab.readiness import shortfalls
+from game.study.lab.stated_design import outdated
 from game.study.lab.stated_times import contradicted, stated
 from game.study.languages import languages
 from game.study.texts import shipped_texts
@@ -155,7 +156,31 @@ def test_a_primary_outcome_that_nothing_measures_is_told(folder: Path) -> None:
 @pytest.mark.parametrize("language", languages())
 def test_a_new_study_says_the_times_that_it_has(language: str, tmp_path: Path) -> None:
     new_study(tmp_path / "study", seed=3, blocks=1, language=language)
-    assert list(contradicted(open_study(tmp_path / "study"))) == []
+    study = open_study(tmp_path / "study")
+    assert [*contradicted(study), *outdated(study)] == []
+
+
+@pytest.mark.parametrize("language", languages())
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("rounds = 1", [("consent", "rounds is 1:"), ("debrief", "met one instructor:")]),
+        ('instructors = ["ana", "yoked"]', [("debrief", "the instructors are ana and yoked:")]),
+        ('instructors = ["static:1", "static:3"]', [("debrief", "static:1 and static:3:")]),
+        ('round_phases = ["mission"]', [("consent", "no memorise and no label:")]),
+        ('instructors = ["knowledge", "static"]', []),
+    ],
+)
+def test_what_the_texts_still_say_of_the_papers_design_is_told(
+    line: str, told: list[tuple[str, str]], language: str, tmp_path: Path
+) -> None:
+    new_study(tmp_path / "study", seed=3, blocks=1, language=language)
+    study = edit(tmp_path / "study", "study.toml", "label_seconds", f"{line}\nlabel_seconds")
+    notes = list(outdated(study))
+    for (page_name, why), note in zip(told, notes, strict=True):
+        assert note.startswith(f'texts.toml, {page_name}.body says "')
+        assert note.partition('"')[2].partition('"')[0] in getattr(study.texts, page_name).body
+        assert note.endswith(f"{why} change the text")
 
 
 @pytest.mark.parametrize(("language", "said"), [("en", "four-minute"), ("de", "vierminütigen")])
