@@ -6,10 +6,9 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import redirect_stdout
 from html import escape
 from os import cpu_count
 from pathlib import Path
@@ -27,6 +26,7 @@ from analysis.pages.style import SIMULATED
 from analysis.sources.recorded import Recorded
 from analysis.sources.study_folder import read_study_folder
 from analysis.sources.tables_folder import write_tables
+from game.cli import main as ana
 from game.tables.exclusions import read_rules
 
 PARTICIPANTS = 108
@@ -60,7 +60,7 @@ def reproduce(out: Path, participants: int, each: int, seed: int) -> None:
         shutil.rmtree(out / name, ignore_errors=True)
     keys = [(preset, people) for preset in PRESETS for people in POPULATIONS] if each else []
     say(f"A study of {participants} simulated people")
-    _simulate(out / "study", participants, seed, "--population", PEOPLE)
+    _simulate(out / "study", participants, seed, PEOPLE)
     pool = ProcessPoolExecutor(cpu_count())
     try:
         if keys:
@@ -106,12 +106,10 @@ def _in_turn(tables: Path, others: Others) -> Iterator[Path]:
     yield last
 
 
-def _simulate(folder: Path, participants: int, seed: int, *more: str, quiet: bool = False) -> None:
-    """Run `ana simulate`; its failure, which it has told, ends the whole."""
-    command = [sys.executable, "-m", "game", "simulate", str(folder), "--seed", str(seed)]
-    command += ["--participants", str(participants), *more]
-    out = subprocess.DEVNULL if quiet else None
-    if status := subprocess.run(command, check=False, stdout=out).returncode:
+def _simulate(folder: Path, participants: int, seed: int, people: str, *more: str) -> None:
+    """`ana simulate`, in this process; its failure, which it has told, ends the whole."""
+    sizes = ("--participants", str(participants), "--seed", str(seed))
+    if status := ana(["simulate", str(folder), *sizes, "--population", people, *more]):
         raise SystemExit(status)
 
 
@@ -129,9 +127,13 @@ def _other(folder: Path, participants: int, seed: int, key: Key) -> pd.DataFrame
     """The missions of the study of one preset and kind of people, made by this process alone."""
     preset, people = key
     study = folder / f"{preset}-{people}"
-    more = ("--preset", preset, "--population", people, "--jobs", "1")
-    _simulate(study, participants, seed, *more, quiet=True)
-    return missions_of(read_study_folder(study, "simulated", check=False, jobs=1))
+    with redirect_stdout(None):
+        _simulate(study, participants, seed, people, "--preset", preset, "--jobs", "1")
+    return missions_of(
+        read_study_folder(
+            study, "simulated", check=False, jobs=1, wanted=("participants", "rounds")
+        )
+    )
 
 
 def _index(pages: list[tuple[str, str]]) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from analysis.sources.absent import Plain
 from analysis.sources.study_folder import mode_of
 from game.journal.folders import journals
+from game.journal.history import building_of
 from game.journal.reader import Transcript, read_journal
 from game.journal.records import MissionStarted, StudyMode
 from game.tables.session_tables import Tables, session_tables
@@ -31,31 +32,30 @@ def read_replays(folder: Path, mode: StudyMode | None = None) -> Replays:
 
     Raises SourceError or JournalError naming the place.
     """
-    parsed: dict[str, Any] = {}
-    texts: list[str] = []
+    places: dict[str, int] = {}
+    buildings: list[Plain] = []
     missions: list[dict[str, Plain]] = []
     for path in journals(folder, mode_of(folder, mode)):
         transcript = read_journal(path)
-        tables = session_tables(transcript, parsed)
-        for number, text in _buildings(transcript):
-            if text not in texts:
-                texts.append(text)
-            mission = _mission(tables, number, parsed[text])
+        tables = session_tables(transcript)
+        for number, started in _started(transcript):
+            place = places.setdefault(started.building_text, len(places))
+            building = building_of(started)
+            if place == len(buildings):
+                buildings.append(_building(building))
+            mission = _mission(tables, number, building)
             if mission is not None:
-                mission |= {
-                    "building": texts.index(text),
-                    "judged": _judged(transcript, number),
-                }
+                mission |= {"building": place, "judged": _judged(transcript, number)}
                 missions.append(mission)
-    return Replays([_building(parsed[text]) for text in texts], missions)
+    return Replays(buildings, missions)
 
 
-def _buildings(transcript: Transcript) -> Iterable[tuple[int, str]]:
-    """The last mission of each round and the text of its building."""
-    found: dict[int, str] = {}
+def _started(transcript: Transcript) -> Iterable[tuple[int, MissionStarted]]:
+    """How the last mission of each round began."""
+    found: dict[int, MissionStarted] = {}
     for entry in transcript.entries:
         if isinstance(entry.record, MissionStarted) and entry.envelope.round:
-            found[entry.envelope.round] = entry.record.building_text
+            found[entry.envelope.round] = entry.record
     return found.items()
 
 

@@ -1,6 +1,6 @@
 """Reads the journals of a study folder, through `game.session` alone."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -48,11 +48,12 @@ def read_study_folder(
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
     jobs: int | None = None,
+    wanted: Collection[str] = ANALYSED,
 ) -> Recorded:
     """The sessions of one mode in a study folder; without `mode`, of the only one there is.
 
     With `check` every mission is played again from its actions and must come out as recorded. They
-    are read by `jobs` processes, one a core if not said.
+    are read by `jobs` processes, one a core if not said. Frames that are not `wanted` are empty.
     Raises SourceError or JournalError, naming the place and a hint.
     """
     mode = mode_of(folder, mode)
@@ -64,7 +65,7 @@ def read_study_folder(
             hint=f"Take those that there are: {_there_are(folder)}",
         )
     forms = forms_of(folder)
-    read = _read_all(paths, partial(_read, folder, mode, check, forms), tick, jobs)
+    read = _read_all(paths, partial(_read, folder, mode, check, forms, wanted), tick, jobs)
     _refuse_changed(read)
     frames = {
         name: typed(name, [row for one in read for row in one.cells[name]], forms)
@@ -152,7 +153,12 @@ def _told_of(parts: Iterable[list[_Read]], tick: Tick, of: int) -> list[_Read]:
 
 
 def _read(
-    folder: Path, mode: StudyMode, check: bool, forms: Forms, paths: Sequence[Path]
+    folder: Path,
+    mode: StudyMode,
+    check: bool,
+    forms: Forms,
+    wanted: Collection[str],
+    paths: Sequence[Path],
 ) -> list[_Read]:
     transcripts = []
     for path in paths:
@@ -163,7 +169,7 @@ def _read(
         transcripts.append(transcript)
     read = []
     for path, transcript, tables in zip(
-        paths, transcripts, tables_of(transcripts, forms), strict=True
+        paths, transcripts, tables_of(transcripts, forms, wanted), strict=True
     ):
         difference = verify_transcript(transcript).difference if check else None
         told = "" if difference is None else str(difference)

@@ -67,8 +67,7 @@ class Observations:
     def taken_in(self, observation: Observation) -> Observation:
         if self.room_names and self.victims:
             return observation
-        return replace(
-            observation,
+        return observation._replace(
             rooms=observation.rooms if self.room_names else (),
             victims=observation.victims if self.victims else (),
             visible=observation.visible if self.victims else 0,

@@ -53,8 +53,10 @@ from game.journal.records import (
     Versions,
     Withdrawn,
 )
+from game.world.building import Building
 from game.world.events import Acted, Event, Expired, MissionEnded, Outcome, Rescued
 from game.world.geometry import Cell
+from game.world.reading import kept_building
 
 PhaseEnding = Literal["completed", "timed_out", "interrupted", "void"]
 
@@ -383,6 +385,12 @@ class History:
                 self.endings[step] = record.ending
                 span.ending, span.ended_utc = record.ending, utc
                 span.exposure_ms = record.exposure_ms
+
+
+def building_of(started: MissionStarted) -> Building:
+    """The building a mission took place in; the same object for all missions in it, while it is
+    kept. Raises BuildingError, which the writer of a journal never leads to."""
+    return kept_building(started.building_text, started.building)
 
 
 def history_of(records: Iterable[tuple[Envelope, Record]]) -> History:

@@ -8,7 +8,6 @@ tuple, and takes as long to read as that.
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cached_property
 
 from game.coach.acts import Level
@@ -30,7 +29,7 @@ class Interpreted:
         self._known: dict[str, str] = {"": ""}
 
     def decide(self, observation: Observation) -> Action | Wait | None:
-        return self._rescuer.decide(replace(observation, guidance=self._in_english(observation)))
+        return self._rescuer.decide(observation._replace(guidance=self._in_english(observation)))
 
     def _in_english(self, observation: Observation) -> Guidance | None:
         bar = observation.guidance

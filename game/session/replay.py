@@ -13,7 +13,7 @@ from copy import deepcopy
 from typing import NamedTuple
 
 from game.coach.acts import LevelChanged
-from game.journal.history import Happening, MissionHistory, read_history
+from game.journal.history import Happening, MissionHistory, building_of, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import RunRecord
@@ -21,7 +21,6 @@ from game.journal.thoughts import Thoughts
 from game.world.events import Acted, Expired, Rescued
 from game.world.mission import Mission
 from game.world.observation import Observation
-from game.world.reading import parse_building
 
 CHECKPOINT_MS = 10_000
 
@@ -53,7 +52,7 @@ class Replay:
         self.number, self.count = number, len(recorded)
         self.recorded = recorded[number]
         self.started = self.recorded.started
-        self.building = parse_building(self.started.building_text, self.started.building)
+        self.building = building_of(self.started)
         self.duration_ms = self.recorded.until_ms
         self._happened: Sequence[Happening] = self.recorded.happened
         self._due = [happening.record.at_ms for happening in self._happened]

@@ -14,7 +14,7 @@ import msgspec
 from game.coach.instructions.phrasebook_file import phrasebook_of
 from game.coach.spec import assumed_of, build_coach
 from game.errors import AnaError
-from game.journal.history import MissionHistory, read_history
+from game.journal.history import MissionHistory, building_of, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import (
     Difference,
@@ -28,7 +28,6 @@ from game.journal.records import RELEASES, RULES_VERSION, RunRecord
 from game.session.playing import CoachBuilder, assemble, preset_of
 from game.session.run import MissionRun
 from game.world.events import Acted, LevelAsked
-from game.world.reading import parse_building
 
 TOLERANCE = 1e-9
 """Real numbers may differ by this much, absolutely or relatively; all else must be equal."""
@@ -145,7 +144,7 @@ def _replayed(mission: MissionHistory, build: CoachBuilder) -> Difference | None
     started = mission.started
     again: list[RunRecord] = []
     try:
-        building = parse_building(started.building_text, started.building)
+        building = building_of(started)
         phrases = phrasebook_of(started.instructions_text)
         run = assemble(
             building, started.settings, started.coach, started.seed, again.extend,

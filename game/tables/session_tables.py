@@ -6,7 +6,7 @@ write the rows to files and analyses read them into frames; neither reads a jour
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, cast
@@ -15,7 +15,7 @@ import msgspec
 
 from game.forms.form import Forms
 from game.forms.reading import paper_forms
-from game.journal.history import History, PhaseSpan, Step, read_history
+from game.journal.history import History, PhaseSpan, Step, building_of, read_history
 from game.journal.journal_error import JournalError
 from game.journal.reader import Transcript
 from game.journal.records import Allocated, ProtocolPhase
@@ -38,9 +38,8 @@ from game.tables.rows import (
     TableRow,
     VictimRow,
 )
-from game.world.building import Building, Severity
-from game.world.events import Outcome
-from game.world.reading import parse_building
+from game.world.building import Severity
+from game.world.events import Acted, Outcome
 
 MENTAL_STATES = ("engagement", "confidence", "frustration", "confusion")
 LIKERT_ITEMS = ("pref1", "pref2", "pref3", "pref4")
@@ -111,31 +110,28 @@ def row_types(forms: Forms) -> dict[str, type[TableRow]]:
 
 def session_tables(
     transcript: Transcript,
-    buildings: dict[str, Building] | None = None,
     forms: Forms | None = None,
+    wanted: Collection[str] = tuple(ROW_TYPES),
 ) -> Tables:
-    """The rows of one session of a study that asks `forms`, the paper's if not said. Practice is
-    left out, except for its check.
+    """The rows of one session of a study that asks `forms`, the paper's if not said; tables that
+    are not `wanted` stay empty. Practice is left out, except for its check.
 
-    `buildings`, keyed by their text, are filled as they are met: a caller with many sessions passes
-    the same dict, so that each building is parsed once. Raises JournalError for a journal that has
-    rounds but no allocation.
+    Raises JournalError for a journal that has rounds but no allocation.
     """
-    known = {} if buildings is None else buildings
-    return _Session(transcript, known, forms or paper_forms()).tables()
+    return _Session(transcript, forms or paper_forms()).tables(wanted)
 
 
-def tables_of(transcripts: Iterable[Transcript], forms: Forms | None = None) -> Iterator[Tables]:
+def tables_of(
+    transcripts: Iterable[Transcript],
+    forms: Forms | None = None,
+    wanted: Collection[str] = tuple(ROW_TYPES),
+) -> Iterator[Tables]:
     """The rows of each session of a study."""
-    buildings: dict[str, Building] = {}
-    return (session_tables(transcript, buildings, forms) for transcript in transcripts)
+    return (session_tables(transcript, forms, wanted) for transcript in transcripts)
 
 
 class _Session:
-    def __init__(
-        self, transcript: Transcript, buildings: dict[str, Building], forms: Forms
-    ) -> None:
-        self._buildings = buildings
+    def __init__(self, transcript: Transcript, forms: Forms) -> None:
         self._forms = forms
         self._columns = asked_columns(forms)
         self._types = row_types(forms)
@@ -150,17 +146,12 @@ class _Session:
                 mission.step.round,
                 self.adaptivity(mission.step.round),
                 self.allocated.buildings[mission.step.round - 1],
-                self._building(mission.started.building_text),
+                building_of(mission.started),
                 mission,
             )
             for mission in self.history.missions
             if mission.step.phase == "mission" and mission.step.round
         }
-
-    def _building(self, text: str) -> Building:
-        if text not in self._buildings:
-            self._buildings[text] = parse_building(text)
-        return self._buildings[text]
 
     @property
     def rounds(self) -> Iterator[int]:
@@ -180,22 +171,24 @@ class _Session:
     def adaptivity(self, round_: int) -> InstructorKind:
         return "adaptive" if self.allocated.second_leads(round_) else "static"
 
-    def tables(self) -> Tables:
+    def tables(self, wanted: Collection[str]) -> Tables:
         missions = tuple(self.missions.values())
-        return Tables(
-            participants=(self.participant_row(),),
-            rounds=tuple(self.round_row(round_) for round_ in self.rounds),
-            items=tuple(self.items()),
-            labels=tuple(self.labels()),
-            victims=tuple(row for mission in missions for row in mission.victims()),
-            actions=tuple(row for mission in missions for row in mission.actions()),
-            instructions=tuple(row for mission in missions for row in mission.instructions()),
-            posteriors=tuple(row for mission in missions for row in mission.posteriors()),
-            levels=tuple(row for mission in missions for row in mission.levels()),
-            asked=tuple(row for mission in missions for row in mission.asked()),
-            phases=tuple(self.phases()),
-            freetext=tuple(self.free_texts()),
-        )
+        every: dict[str, Iterator[TableRow]] = {
+            "participants": (self.participant_row() for _ in (self.participant,)),
+            "rounds": (self.round_row(round_) for round_ in self.rounds),
+            "items": self.items(),
+            "labels": self.labels(),
+            "victims": (row for mission in missions for row in mission.victims()),
+            "actions": (row for mission in missions for row in mission.actions()),
+            "instructions": (row for mission in missions for row in mission.instructions()),
+            "posteriors": (row for mission in missions for row in mission.posteriors()),
+            "levels": (row for mission in missions for row in mission.levels()),
+            "asked": (row for mission in missions for row in mission.asked()),
+            "phases": self.phases(),
+            "freetext": self.free_texts(),
+        }
+        made: dict[str, Any] = {name: tuple(every[name]) for name in every if name in wanted}
+        return Tables(**made)
 
     # --- the participant -------------------------------------------------------------------------
 
@@ -321,7 +314,7 @@ class _Session:
         if mission is None:
             return {}
         victims, instructions = tuple(mission.victims()), tuple(mission.instructions())
-        outcomes = [action.outcome for action in mission.actions()]
+        outcomes = [it.outcome for it in mission.mission.records if isinstance(it, Acted)]
         levels, posteriors = tuple(mission.levels()), tuple(mission.posteriors())
         kinds, wants = self.disobeyed([mission]), [row.want for row in mission.asked()]
         clear = [row.comprehension for row in posteriors if row.verdict != "none"]

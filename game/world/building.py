@@ -9,7 +9,7 @@ from hashlib import sha256
 
 from game.world.geometry import Cell, Heading
 from game.world.plan import Plan
-from game.world.terrain import Terrain
+from game.world.terrain import Terrain, terrain_of
 
 
 class Severity(StrEnum):
@@ -78,8 +78,13 @@ class Building:
 
     @cached_property
     def terrain(self) -> Terrain:
-        """What the plan alone implies, shared by all who use this building."""
-        return Terrain(self.plan)
+        """What the plan alone implies, shared by all who use a building with this plan."""
+        return terrain_of(self.plan)
+
+    @cached_property
+    def labels(self) -> tuple[tuple[str, Cell], ...]:
+        """The rooms' names and where each is written; with the plan, all there is to the rooms."""
+        return tuple((room.name, room.label) for room in self.rooms)
 
     @cached_property
     def _room_of_cell(self) -> dict[Cell, Room]:

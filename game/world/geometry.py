@@ -23,21 +23,24 @@ class Heading(IntEnum):
 
     @property
     def right(self) -> Heading:
-        return Heading((self + 1) % 4)
+        return HEADINGS[(self + 1) % 4]
 
     @property
     def back(self) -> Heading:
-        return Heading((self + 2) % 4)
+        return HEADINGS[(self + 2) % 4]
 
     @property
     def left(self) -> Heading:
-        return Heading((self + 3) % 4)
+        return HEADINGS[(self + 3) % 4]
 
     def from_cell(self, cell: Cell, steps: int = 1) -> Cell:
         """The cell `steps` steps this way from `cell`."""
         dx, dy = _STEPS[self]
         return cell[0] + dx * steps, cell[1] + dy * steps
 
+
+HEADINGS = tuple(Heading)
+"""Clockwise from north; quicker to go through than the class."""
 
 _STEPS: tuple[Cell, ...] = ((0, -1), (1, 0), (0, 1), (-1, 0))
 

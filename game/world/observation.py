@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 from game.world.building import Severity
 from game.world.geometry import Cell, Heading
@@ -52,8 +53,7 @@ class Guidance:
     notice: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
+class Observation(NamedTuple):
     """The rescuer's observation o_t = FOV(s_t) with the instruction on screen (paper 5.1.3).
 
     `terrain` is what the mini-map shows (walls and doors, no names, no victims) with all that

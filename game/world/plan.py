@@ -23,6 +23,8 @@ class Tile(IntEnum):
     DOOR = 2
 
 
+_TILES = tuple(Tile)
+
 _DIGITS = bytes(code & 1 for code in range(256))
 """Translates the digits `0` and `1` of a text to the bytes 0 and 1."""
 
@@ -48,7 +50,7 @@ class Plan:
 
     def tile(self, cell: Cell) -> Tile:
         """The tile at `cell`; everything outside the plan is wall."""
-        return Tile(self.tiles[cell[1] * self.width + cell[0]]) if cell in self else Tile.WALL
+        return _TILES[self.tiles[cell[1] * self.width + cell[0]]] if cell in self else Tile.WALL
 
     def walkable(self, cell: Cell) -> bool:
         return cell in self and self.tiles[cell[1] * self.width + cell[0]] != Tile.WALL

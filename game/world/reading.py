@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator
+from functools import lru_cache
 
 from game.world.building import Building, Severity
 from game.world.drawing import BuildingError, Drawing, Problem, RoomMark, build, survey
@@ -18,6 +19,9 @@ from game.world.plan import Plan, Tile
 TILE_GLYPHS = {"#": Tile.WALL, ".": Tile.FLOOR, "+": Tile.DOOR}
 COMMENT = ";"
 SMALLEST_SIDE = 3
+BUILDINGS_KEPT = 64
+"""So many are kept parsed: those of a study, and each leg of practice from where it mostly begins.
+"""
 
 _ENTRY = re.compile(r"(\S)\s*=\s*(.*)")
 _MEANING = re.compile(
@@ -32,6 +36,12 @@ def parse_building(text: str, source: str = "building") -> Building:
     if building is None:
         raise BuildingError(problems)
     return building
+
+
+@lru_cache(maxsize=BUILDINGS_KEPT)
+def kept_building(text: str, source: str = "building") -> Building:
+    """`parse_building`, for readers of many journals: the same text gives the same building."""
+    return parse_building(text, source)
 
 
 def inspect_text(

@@ -206,11 +206,13 @@ class _Search:
     def value(self, order: _Order) -> tuple[int, int]:
         """What a walk in this order is worth: the weight of those rescued in time, then how early
         the last is. Victims who could not be reached in time are skipped."""
-        row, at_ms, worth = self.travel[-1], self.begin_ms, 0
+        travel, stay, due, weight = self.travel, self.stay, self.due, self.weight
+        row, at_ms, worth = travel[-1], self.begin_ms, 0
         for i in order:
-            done_ms = at_ms + row[i] + self.stay[i]
-            if done_ms <= self.due[i]:
-                row, at_ms, worth = self.travel[i], done_ms, worth + self.weight[i]
+            done_ms = at_ms + row[i] + stay[i]
+            if done_ms <= due[i]:
+                row, at_ms = travel[i], done_ms
+                worth += weight[i]
         return worth, -at_ms
 
     def served(self, order: _Order) -> _Order:

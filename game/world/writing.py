@@ -8,7 +8,6 @@ from string import ascii_letters, digits
 
 from game.world.building import Building, Severity
 from game.world.geometry import Cell
-from game.world.plan import Tile
 from game.world.reading import COMMENT, TILE_GLYPHS
 
 _START_GLYPH = ">"
@@ -16,7 +15,7 @@ _VICTIM_GLYPHS = {Severity.RED: "*", Severity.BLUE: "o"}
 _TAKEN = {_START_GLYPH, COMMENT, *_VICTIM_GLYPHS.values(), *TILE_GLYPHS}
 _LATIN = (chr(code) for code in range(0xC0, 0x250))
 _ROOM_GLYPHS = [glyph for glyph in (*ascii_letters, *digits, *_LATIN) if glyph not in _TAKEN]
-_WALL_FLOOR_DOOR = {tile: glyph for glyph, tile in TILE_GLYPHS.items()}
+_DRAWN = bytes.maketrans(bytes(TILE_GLYPHS.values()), "".join(TILE_GLYPHS).encode("ascii"))
 
 
 def render_building(building: Building) -> str:
@@ -27,10 +26,8 @@ def render_building(building: Building) -> str:
     if len(building.rooms) > len(_ROOM_GLYPHS):
         raise ValueError(f"{len(building.rooms)} rooms, but only {len(_ROOM_GLYPHS)} glyphs")
     plan = building.plan
-    grid = [
-        [_WALL_FLOOR_DOOR[Tile(plan.tile((x, y)))] for x in range(plan.width)]
-        for y in range(plan.height)
-    ]
+    drawn = plan.tiles.translate(_DRAWN).decode("ascii")
+    grid = [list(drawn[at : at + plan.width]) for at in range(0, len(drawn), plan.width)]
 
     def draw(cell: Cell, glyph: str) -> None:
         grid[cell[1]][cell[0]] = glyph

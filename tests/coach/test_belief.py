@@ -160,7 +160,7 @@ def test_a_victim_seen_expired_is_resolved() -> None:
     look = _look(space, PLAN.walkable_mask)
     expired = replace(look.victims[1], state=VictimState.EXPIRED)
     belief = Belief.prior(space, (1, 1), Heading.EAST)
-    belief = belief.correct(replace(look, victims=(look.victims[0], expired)))
+    belief = belief.correct(look._replace(victims=(look.victims[0], expired)))
     assert belief.victims == {"v0", "v1"}
     assert belief.resolved == {"v1"}
 

@@ -207,9 +207,9 @@ def test_the_reader_sees_no_farther_than_the_observation() -> None:
     """With the side wall out of view the door in it does not come abreast."""
     place = Office((1, 6), Heading.EAST, text="Proceed to the first door on your left.")
     seen = place.mission.observation(place.guidance)
-    blind = replace(seen, visible=0)
+    blind = seen._replace(visible=0)
     reader = LiteralReader("compass")
-    acts = [reader.decide(replace(blind, position=(x, 6))) for x in range(1, 29)]
+    acts = [reader.decide(blind._replace(position=(x, 6))) for x in range(1, 29)]
     assert acts == [Action.EAST] * 27 + [None]
 
 

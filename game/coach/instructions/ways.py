@@ -13,6 +13,7 @@ from game.coach.instructions.landmarks import Landmarks, Move
 from game.coach.instructions.legs import BY_EFFORT
 from game.coach.instructions.scene import Scene
 from game.coach.instructions.vocabulary import VICTIM_AT_C2, Tuples
+from game.world.building import Severity
 from game.world.geometry import Cell, Heading
 
 MOST_DETOUR = 2
@@ -24,6 +25,9 @@ TUPLE_COST, DETOUR_COST, COUNT_COST = 6, 4, 1
 SILENCE_COST, STEP_COST = 40, 1
 """What it weighs to be at a loss for words, and then each step to the goal: where no way can be
 told to its end, it is told as far as this is worth it."""
+
+Alike = frozenset[Cell]
+"""Where the waiting victims of the goal's colour lie."""
 
 TURNS: tuple[Tuples, ...] = ((), (("Turn", "right"),), (("Turn", "Around"),), (("Turn", "left"),))
 """How to say a turn of so many quarters to the right."""
@@ -45,20 +49,17 @@ class Stage(NamedTuple):
 
 
 class WaysToGoal:
-    """The best ways to one goal, from anywhere, while the same victims wait."""
+    """The best ways to one goal, from anywhere, while the same victims of its colour wait."""
 
-    def __init__(self, scene: Scene, goal: str, landmarks: Landmarks) -> None:
-        site = scene.victim(goal)
+    def __init__(self, goal: Cell, severity: Severity, alike: Alike, landmarks: Landmarks) -> None:
         self._landmarks = landmarks
-        self._plan = scene.building.plan
-        self._goal = site
-        self._distances = scene.floodfills.to(site.cell)
-        self._floodfills = scene.floodfills
-        self._alike = [
-            other.cell for other in scene.waiting.values() if other.severity is site.severity
-        ]
-        self._victim = VICTIM_AT_C2[site.severity]
-        self._near_goal = landmarks.lookouts(site.cell)
+        self._plan = landmarks.building.plan
+        self._goal = goal
+        self._floodfills = landmarks.building.terrain.floodfills
+        self._distances = self._floodfills.to(goal)
+        self._alike = alike
+        self._victim = VICTIM_AT_C2[severity]
+        self._near_goal = landmarks.lookouts(goal)
         self._lookouts = 0
         for victim in self._alike:
             self._lookouts |= landmarks.lookouts(victim)
@@ -120,27 +121,27 @@ class WaysToGoal:
         if not self._near_goal >> cell & 1:
             return False
         seen = self._seen(cell)
-        if self._goal.cell not in seen:
+        if self._goal not in seen:
             return False
         here, distance = self._plan.cell(cell), self._distances[cell]
         return all(
             self._floodfills.distance(here, other) > distance
             for other in seen
-            if other != self._goal.cell
+            if other != self._goal
         )
 
     def _until_seen(self, start: int, heading: Heading) -> Move | None:
         """`Proceed redvictim`: straight ahead until a victim of the goal's colour is in view. Made
         only in the goal's own room, where none is in view at the start, and the goal is at the
         end."""
-        if not self._landmarks.share_room(start, self._goal.cell) or self._seen(start):
+        if not self._landmarks.share_room(start, self._goal) or self._seen(start):
             return None
         for steps in range(1, self._landmarks.clear(start, heading) + 1):
             cell = start + steps * self._landmarks.strides[heading]
             seen = self._seen(cell)
             if seen:
                 found = Move(("Proceed", f"1 {self._victim}"), cell, cell, heading, steps)
-                return found if self._goal.cell in seen else None
+                return found if self._goal in seen else None
         return None
 
     def _seen(self, cell: int) -> tuple[Cell, ...]:
@@ -158,24 +159,28 @@ class WaysToGoal:
 
 
 class WaysToGoals:
-    """The best ways in one building, kept between instructions."""
+    """The best ways in one building, kept between instructions and missions."""
 
     def __init__(self, scene: Scene) -> None:
         self.landmarks = Landmarks(scene.building, scene.settings.sight_radius)
-        self._ways: dict[tuple[str, frozenset[str]], WaysToGoal] = {}
+        self._ways: dict[tuple[Cell, Severity, Alike], WaysToGoal] = {}
 
     def to(self, scene: Scene, goal: str) -> WaysToGoal:
         """The ways to `goal` while the victims wait that wait now."""
-        key = goal, frozenset(scene.waiting)
+        site = scene.victim(goal)
+        alike = frozenset(
+            other.cell for other in scene.waiting.values() if other.severity is site.severity
+        )
+        key = site.cell, site.severity, alike
         ways = self._ways.get(key)
         if ways is None:
             if len(self._ways) >= MOST_KEPT:
                 self._ways.clear()
-            ways = self._ways[key] = WaysToGoal(scene, goal, self.landmarks)
+            ways = self._ways[key] = WaysToGoal(*key, self.landmarks)
         return ways
 
 
 def ways_in(scene: Scene) -> WaysToGoals:
     """The ways in the scene's building."""
-    key = "ways", scene.settings.sight_radius
+    key = "ways", scene.settings.sight_radius, scene.building.labels
     return scene.building.terrain.shared(key, lambda: WaysToGoals(scene))

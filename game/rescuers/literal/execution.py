@@ -35,7 +35,7 @@ from game.rescuers.literal.grammar import (
 from game.world.building import Severity
 from game.world.events import Action
 from game.world.floodfill import cost_to_go
-from game.world.geometry import Cell, Heading
+from game.world.geometry import HEADINGS, Cell, Heading
 from game.world.observation import Observation
 from game.world.plan import Tile
 from game.world.settings import Controls
@@ -182,7 +182,7 @@ class Walker:
 
     def _step_to(self, now: Observation, cell: Cell) -> Doing:
         """One step onto a neighbouring cell. Raises `Stuck` where it is none, as after a slip."""
-        facing = next((way for way in Heading if way.from_cell(now.position) == cell), None)
+        facing = next((way for way in HEADINGS if way.from_cell(now.position) == cell), None)
         if facing is None:
             raise Stuck
         self._facing = facing
@@ -249,7 +249,10 @@ class Walker:
 
 def room_around(terrain: Terrain, cell: Cell) -> frozenset[Cell]:
     """The floor of the room around a floor cell."""
-    return terrain.shared(("room", cell), lambda: looking.floor_around(terrain.plan, cell))
+    rooms: dict[Cell, frozenset[Cell]] = terrain.shared("rooms", dict)
+    if cell not in rooms:
+        rooms[cell] = looking.floor_around(terrain.plan, cell)
+    return rooms[cell]
 
 
 def _is_unseen(

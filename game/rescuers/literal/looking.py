@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from game.rescuers.literal.grammar import Landmark
 from game.world.building import Severity
-from game.world.geometry import Cell, Heading
+from game.world.geometry import HEADINGS, Cell, Heading
 from game.world.observation import Observation, VictimState
 from game.world.plan import Plan, Tile
 
@@ -98,7 +98,7 @@ def floor_around(plan: Plan, cell: Cell) -> frozenset[Cell]:
     frontier = [cell]
     while frontier:
         here = frontier.pop()
-        for heading in Heading:
+        for heading in HEADINGS:
             near = heading.from_cell(here)
             if near not in found and plan.tile(near) is Tile.FLOOR:
                 found.add(near)

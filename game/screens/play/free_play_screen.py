@@ -4,7 +4,6 @@ deaths of red victims told."""
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 from textual.app import ComposeResult
@@ -52,7 +51,7 @@ class Gloss:
         text = glossed(guidance.text, self._key)
         if text == guidance.text:
             return observation
-        return replace(observation, guidance=Guidance(text, guidance.notice))
+        return observation._replace(guidance=Guidance(text, guidance.notice))
 
 
 def deaths_told(observation: Observation, rules: MissionSettings) -> Observation:

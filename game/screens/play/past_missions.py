@@ -10,11 +10,10 @@ from pathlib import Path
 
 from game.errors import AnaError
 from game.journal.folders import MOST_MISSIONS
-from game.journal.history import MissionHistory, read_history
+from game.journal.history import MissionHistory, building_of, read_history
 from game.journal.reader import read_journal
 from game.screens.play.mission_story import coach_name
 from game.world.building import Building, Severity
-from game.world.reading import parse_building
 from game.world.settings import FREE_PLAY, MissionSettings
 from game.world.variant import Difficulty, with_demands
 
@@ -100,7 +99,7 @@ def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
         played = history.missions[0]
         if played.step.phase == "practice":
             return "tutorial"
-        building = _building(played.started.building_text, played.started.building)
+        building = building_of(played.started)
     except AnaError:
         return CANNOT_BE_READ
     opening = transcript.started
@@ -118,11 +117,6 @@ def _read(journal: Path, _mtime_ns: int, _size: int) -> PastMission | str:
         rescuer=opening.rescuer if opening.simulated else "",
         map_s=round(started.memorised_ms / 1000),
     )
-
-
-@lru_cache(maxsize=32)
-def _building(text: str, name: str) -> Building:
-    return parse_building(text, name)
 
 
 def _points(played: MissionHistory, building: Building) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -57,7 +57,7 @@ def mission_pages(frame: Frame, study: Study, building: Building) -> Iterator[Op
     seen = Mission(building, rules).observation()
     longest = longest_guidance(study.phrases, rooms)
     for number, guidance in enumerate(longest):
-        now = replace(_moment(seen, rules, number), guidance=guidance)
+        now = _moment(seen, rules, number)._replace(guidance=guidance)
         heading = tuple(Heading)[number % 4]
         facing = getattr(frame.words.mission.directions, heading.name.lower())
         small = (
@@ -68,7 +68,7 @@ def mission_pages(frame: Frame, study: Study, building: Building) -> Iterator[Op
         )
         yield Opened(
             f"{building.name} {number + 1}",
-            partial(MissionStill, frame, study, replace(now, heading=heading), lines),
+            partial(MissionStill, frame, study, now._replace(heading=heading), lines),
             (guidance.text, guidance.notice, *small),
         )
 
@@ -82,8 +82,7 @@ def _moment(seen: Observation, rules: MissionSettings, number: int) -> Observati
         SeenVictim((x, y - steps), Severity.BLUE, VictimState.WAITING)
         for steps in {1: (2,), 2: (1,)}.get(number, ())
     )
-    return replace(
-        seen,
+    return seen._replace(
         rescued=20,
         victims=victims,
         time_ms=time_ms,

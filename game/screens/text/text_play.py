@@ -12,7 +12,7 @@ from types import FrameType
 from typing import TextIO
 
 from game.coach.spec import CoachSpec
-from game.journal.history import MissionHistory, read_history
+from game.journal.history import MissionHistory, building_of, read_history
 from game.journal.reader import read_journal
 from game.journal.sink import FileSink
 from game.journal.writer import Journal
@@ -122,9 +122,7 @@ def _outcome(journal: Journal) -> Iterator[str]:
 
 def outcome(played: MissionHistory) -> Iterator[str]:
     """What a mission came to, in sentences."""
-    from game.world.reading import parse_building
-
-    building = parse_building(played.started.building_text, played.started.building)
+    building = building_of(played.started)
     rules = played.started.settings
     sites = {site.id: site for site in building.victims}
     saved = [sites[victim] for victim, (fate, _) in played.fates.items() if fate == "rescued"]

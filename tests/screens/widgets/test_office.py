@@ -137,7 +137,7 @@ def test_names_in_wide_characters_shift_nothing(actions: list[Action], name: str
     size = observation.plan.width, observation.plan.height
     camera = Camera.centred(40, 20, observation.position, size)
     shown = [line_row(line, camera, PLAIN) for line in window_lines(observation, camera)]
-    nameless = replace(observation, rooms=())
+    nameless = observation._replace(rooms=())
     without = [line_row(line, camera, PLAIN) for line in window_lines(nameless, camera)]
     assert [width(row) for row in shown] == [width(row) for row in without]
     assert "\0" not in "".join(plain(shown))
