@@ -62,7 +62,7 @@ def deaths_told(observation: Observation, rules: MissionSettings) -> Observation
     guidance = observation.guidance or Guidance("")
     died = f"Time is up for red victims: {lost} died."
     notice = f"{died} {guidance.notice}".rstrip()
-    return replace(observation, guidance=Guidance(guidance.text, notice))
+    return observation._replace(guidance=Guidance(guidance.text, notice))
 
 
 def mission_keys(rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[tuple[str, str]]:

@@ -278,7 +278,7 @@ async def test_the_deaths_of_red_victims_are_told_and_counted(open_app: Open) ->
             await asyncio.sleep(0.02)
         assert "Time is up for red victims: 2 died." in shown(mission)
         assert "2 died" in " ".join(plain(mission.view.status.rows))
-        later = replace(mission.live.observation(), time_ms=300 + DIED_MS)
+        later = mission.live.observation()._replace(time_ms=300 + DIED_MS)
         mission.show(later)
         assert "red victims:" not in shown(mission) and "2 died" in shown(mission)
 
@@ -291,7 +291,7 @@ def test_nobody_is_said_to_have_died_where_all_reds_were_reached(ward: Building)
     run.advance(400)
     after = run.observation()
     assert deaths_told(after, rules).guidance != after.guidance
-    saved = replace(after, lost=0)
+    saved = after._replace(lost=0)
     assert deaths_told(saved, rules) is saved
     assert plain(status_rows(saved, rules, 26, deaths=True))[3].endswith("none died")
     assert plain(status_rows(after, rules, 26))[3].endswith("out of time"), "as in a study"
