@@ -88,7 +88,7 @@ class Bar:
         self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)
         self._ahead = set(self._track) - {pose}
-        self.guidance = Guidance(instruction.text, notice)
+        self.guidance = Guidance(instruction.text, notice, self._number)
         return InstructionIssued(
             at_ms,
             number=self._number,
@@ -129,7 +129,7 @@ class Bar:
         self._compliance = self._compliance.acted(distance, at_ms, nearer=nearer, follows=follows)
         if not (self._compliance.heeded and self.guidance.notice):
             return None
-        self.guidance = Guidance(self.shown.instruction.text)
+        self.guidance = Guidance(self.shown.instruction.text, number=self._number)
         return NoticeTakenDown(at_ms, self._number)
 
     def reached(self, pose: Pose) -> bool:

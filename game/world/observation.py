@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -47,10 +47,12 @@ class Treatment:
 
 @dataclass(frozen=True, slots=True)
 class Guidance:
-    """What stands on the yellow bar. `notice` is a short correction shown before `text`."""
+    """What stands on the yellow bar. `notice` is a short correction shown before `text`; `number`
+    counts the instructions, and tells one from another in the same words."""
 
     text: str
     notice: str = ""
+    number: int = field(default=0, compare=False)
 
 
 class Observation(NamedTuple):

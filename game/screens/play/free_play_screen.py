@@ -4,6 +4,7 @@ deaths of red victims told."""
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 from textual.app import ComposeResult
@@ -51,7 +52,28 @@ class Gloss:
         text = glossed(guidance.text, self._key)
         if text == guidance.text:
             return observation
-        return observation._replace(guidance=Guidance(text, guidance.notice))
+        return observation._replace(guidance=replace(guidance, text=text))
+
+
+class Repeats:
+    """Tells a new instruction in the words of the one before it from that one."""
+
+    def __init__(self) -> None:
+        self._before = Guidance("")
+        self.again = False
+        """Whether the instruction shown last repeats the words before it."""
+
+    def of(self, observation: Observation) -> Observation:
+        """The observation with `Again` on its bar, where that is so."""
+        guidance = observation.guidance
+        if guidance is None:
+            return observation
+        if guidance.number != self._before.number:
+            self.again = self._before.number > 0 and guidance.text == self._before.text
+            self._before = guidance
+        if not self.again:
+            return observation
+        return observation._replace(guidance=replace(guidance, text=f"Again: {guidance.text}"))
 
 
 def deaths_told(observation: Observation, rules: MissionSettings) -> Observation:
@@ -62,7 +84,7 @@ def deaths_told(observation: Observation, rules: MissionSettings) -> Observation
     guidance = observation.guidance or Guidance("")
     died = f"Time is up for red victims: {lost} died."
     notice = f"{died} {guidance.notice}".rstrip()
-    return observation._replace(guidance=Guidance(guidance.text, notice))
+    return observation._replace(guidance=replace(guidance, notice=notice))
 
 
 def mission_keys(rules: MissionSettings, keys: KeyMap = USUAL_KEYS) -> list[tuple[str, str]]:
@@ -86,6 +108,7 @@ class FreePlayScreen(MissionScreen):
     ) -> None:
         super().__init__(live, journal)
         self._gloss = Gloss()
+        self._repeats = Repeats()
         self._said = Guidance("")
         self._keys = KeyLine(id="keys")
         self._telling: Timer | None = None
@@ -118,9 +141,12 @@ class FreePlayScreen(MissionScreen):
         self._telling = self.set_timer(ASKED_S, self._name_keys)
 
     def show(self, observation: Observation) -> None:
-        observation = deaths_told(observation, self.live.settings)
+        observation = deaths_told(self._repeats.of(observation), self.live.settings)
         said = observation.guidance or Guidance("")
-        if self._rings and announces(said, self._said):
+        repeated = self._repeats.again and said.number != self._said.number
+        if self._rings and (repeated or announces(said, self._said)):
             self.app.bell()
+        if repeated:
+            self.view.bar.stand_out()
         self._said = said
         super().show(self._gloss.of(observation))

@@ -138,7 +138,7 @@ def way_legend(story: MissionStory, columns: int, *, filled: bool) -> list[Row]:
     """What the signs on the map mean, in rows of `columns`: beginning and end, the colours of the
     way and its arrows, and what became of the victims."""
     start = HEADING_ARROWS[story.building.start_heading], "here/here"
-    inks = [f"{trail}/{trail}" if filled else trail for trail in TRAILS]
+    inks = [f"{trail}/{trail if filled else 'dark'}" for trail in TRAILS]
     sign = "  " if filled else "• "
     full = clock_text(story.settings.duration_ms)
     time: Row = (("your way 0:00 ", "quiet"), *((sign, ink) for ink in inks), (f" {full}", "quiet"))

@@ -351,11 +351,15 @@ class TextMission:
 
     def _tell_bar(self) -> None:
         guidance = self._run.observation().guidance or Guidance("")
-        if guidance == self._guidance:
+        repeated = guidance.text == self._guidance.text and self._guidance.number > 0
+        repeated = repeated and guidance.number != self._guidance.number
+        if guidance == self._guidance and not repeated:
             return
         if guidance.notice and guidance.notice != self._guidance.notice:
             self._say(f"Notice: {guidance.notice}")
-        if guidance.text and guidance.text != self._guidance.text:
+        if repeated:
+            self._say("The same again, from here.")
+        if guidance.text and (repeated or guidance.text != self._guidance.text):
             self._say(f"Bar: {guidance.text}")
         self._guidance = guidance
 

@@ -136,6 +136,12 @@ class InstructionBar(Canvas):
         elif settles:
             self._draw()
 
+    def stand_out(self) -> None:
+        """Let what is shown stand out, as if it were new."""
+        if self.flashes:
+            self._fresh_until = monotonic() + FLASH_S
+            self._draw()
+
     def _draw(self) -> None:
         if self.size.width:
             fresh = self._fresh_until > 0

@@ -18,6 +18,7 @@ from game.screens.play.app import AnaApp
 from game.screens.play.free_play_screen import (
     DIED_MS,
     Gloss,
+    Repeats,
     deaths_told,
     glossed,
     mission_keys,
@@ -37,6 +38,7 @@ from game.session.playing import start_in_memory
 from game.world import load_building
 from game.world.building import Building
 from game.world.events import Acted, Action
+from game.world.observation import Guidance
 from game.world.settings import FREE_PLAY, MissionSettings
 from game.world.variant import Variant, day_seed, varied
 from tests.screens.pilots import Open, painted, press, shown, until
@@ -304,3 +306,23 @@ async def test_what_the_level_key_asked_for_covers_nothing(open_app: Open) -> No
         told = mission.asked_words("simpler", answered=False)
         assert told in " ".join(plain(mission.query_one(KeyLine).rows))
         assert not mission.app._notifications, "no toast over the small map"
+
+
+def test_the_same_words_once_more_are_told_from_those_before(ward: Building) -> None:
+    run, _ = start_in_memory(ward, MissionSettings(), parse_coach("static", 1), 1, rescuer="it")
+    observation, repeats = run.observation(), Repeats()
+    assert observation.guidance is not None and observation.guidance.number == 1
+
+    def shown_text(text: str, number: int) -> str:
+        seen = repeats.of(observation._replace(guidance=Guidance(text, number=number)))
+        assert seen.guidance is not None
+        return seen.guidance.text
+
+    walk = "Walk forward 12 steps."
+    assert shown_text(walk, 1) == walk and shown_text(walk, 1) == walk
+    assert shown_text(walk, 2) == f"Again: {walk}" == shown_text(walk, 2)
+    assert repeats.again
+    assert shown_text("Turn left.", 3) == "Turn left." and not repeats.again
+    assert Guidance(walk, number=1) == Guidance(walk, number=2), (
+        "the screens of a study see no more"
+    )
