@@ -178,6 +178,7 @@ _DARK_256 = _DARK_2 | {
     "treated-blue": "#000087",
 }
 _LIGHT_256 = _LIGHT_2 | {
+    "box": "#ffffff",
     "red": "#af0000",
     "on-red-ground": "#af0000",
     "treated-blue": "#000087",
