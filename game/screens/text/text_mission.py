@@ -324,7 +324,7 @@ class TextMission:
                 points = "" if now.score is None else f", {counted(now.score, 'point')}"
                 return f"Rescued. That makes {now.rescued} rescued{points}."
             case Expired():
-                return f"Time is up for red victims: {counted(now.lost, 'red victim')} died."
+                return f"Time is up for red victims: {now.lost} died."
             case _:
                 return ""
 
