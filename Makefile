@@ -16,7 +16,7 @@ play: $(VENV)/play.stamp  ## set the game up (first time) and open it
 	@$(BIN)/ana
 
 test: $(VENV)/all.stamp  ## set everything up (first time) and run the tests
-	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal
+	@PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 
 slow: $(VENV)/all.stamp  ## run the exhaustive tests
 	@$(BIN)/python -m pytest -m slow
@@ -81,7 +81,7 @@ define install
 	beat=$$!; trap 'kill $$beat 2>/dev/null' EXIT; trap 'exit 130' INT TERM; \
 	$(PIP) install --require-hashes --requirement requirements/$(1).txt && \
 	$(PIP) install --quiet --no-deps --no-build-isolation --editable . && \
-	$(BIN)/python -m compileall -q game
+	$(BIN)/python -m compileall -q game $(3)
 endef
 
 $(VENV)/play.stamp: requirements/play.txt $(PROJECT) | $(VENV)/pyvenv.cfg
@@ -89,7 +89,7 @@ $(VENV)/play.stamp: requirements/play.txt $(PROJECT) | $(VENV)/pyvenv.cfg
 	@touch $@
 
 $(VENV)/all.stamp: requirements/all.txt requirements/play.txt $(PROJECT) | $(VENV)/pyvenv.cfg
-	$(call install,all,the game and everything around it)
+	$(call install,all,the game and everything around it,analysis)
 	@touch $(VENV)/play.stamp $@
 
 $(VENV)/pyvenv.cfg:

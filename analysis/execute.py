@@ -1,6 +1,7 @@
 """Runs notebooks from top to bottom, all in one kernel that forgets in between.
 
-`make notebooks` runs the shipped ones and stores them with what they show.
+`make notebooks` runs the shipped ones and stores them with what they show. The libraries of
+notebooks take two seconds to import; they are imported where they are used.
 """
 
 import os
@@ -9,19 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import nbformat
-from jupyter_client.manager import KernelManager
-from nbclient import NotebookClient
-from nbconvert import HTMLExporter
-
 from analysis.pages.notebook import VARIABLE
 
 NOTEBOOKS = Path(__file__).resolve().parents[1] / "notebooks"
 TIMEOUT_S = 300
 FORGET = "%reset -f"
-
-_nbformat: Any = nbformat
-_exporter: Any = HTMLExporter
 
 Notebook: TypeAlias = Any
 """An `nbformat.NotebookNode`; its library has no types."""
@@ -37,6 +30,9 @@ def executed(paths: Iterable[Path], source: Path | None = None) -> Iterator[tupl
 
     Raises nbclient.exceptions.CellExecutionError, which shows the cell, where one fails.
     """
+    from jupyter_client.manager import KernelManager
+    from nbclient import NotebookClient
+
     manager = KernelManager()
     runner = NotebookClient(_forgetting(), km=manager, timeout=TIMEOUT_S, record_timing=False)
     try:
@@ -57,13 +53,13 @@ def executed(paths: Iterable[Path], source: Path | None = None) -> Iterator[tupl
 
 def read(path: Path) -> Notebook:
     """The notebook in a file."""
-    return _nbformat.read(path, as_version=4)
+    return _nbformat().read(path, as_version=4)
 
 
 def write(notebook: Notebook, path: Path) -> None:
     """Write a notebook with what it holds."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    _nbformat.write(notebook, path)
+    _nbformat().write(notebook, path)
 
 
 def title(notebook: Notebook) -> str:
@@ -73,8 +69,11 @@ def title(notebook: Notebook) -> str:
 
 def html(notebook: Notebook) -> str:
     """An executed notebook as one page of HTML, without the code."""
+    from nbconvert import HTMLExporter
+
     notebook.metadata["title"] = title(notebook)
-    exporter = _exporter(
+    untyped: Any = HTMLExporter
+    exporter = untyped(
         exclude_input=True, exclude_output_prompt=True, mathjax_url="", require_js_url=""
     )
     page, _ = exporter.from_notebook_node(notebook)
@@ -93,8 +92,15 @@ def main() -> None:
         write(notebook, path)
 
 
+def _nbformat() -> Any:
+    import nbformat
+
+    return nbformat
+
+
 def _forgetting() -> Notebook:
-    return _nbformat.v4.new_notebook(cells=[_nbformat.v4.new_code_cell(FORGET)])
+    made = _nbformat().v4
+    return made.new_notebook(cells=[made.new_code_cell(FORGET)])
 
 
 @contextmanager

@@ -7,9 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-import statsmodels.formula.api as smf
 from scipy import stats
-from statsmodels.miscmodels.ordinal_model import OrderedModel
 
 from analysis.pages.figures import fig7_mental_states, fig9_adaptivity
 from analysis.pages.published import POSTHOC_FILE, STUDY_FILE, half_unit, printed, recomputed_anova
@@ -30,6 +28,7 @@ from analysis.stats.preferred import preferred_rows
 from analysis.stats.sensitivity import continuous_rows
 from game.errors import AnaError
 from game.tables.exclusions import read_rules
+from tests.analysis.peers import sm_ordinal, smf
 
 ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
@@ -144,7 +143,9 @@ def test_the_odds_model_equals_statsmodels(kinds: int) -> None:
     x = rng.normal(size=(120, 3))
     latent = x @ [1.0, -0.5, 0.2] + rng.logistic(size=120)
     answers = np.digitize(latent, np.quantile(latent, np.arange(1, kinds) / kinds)).astype(np.int64)
-    theirs = OrderedModel(answers, x, distr="logit").fit(method="bfgs", disp=False, maxiter=500)
+    theirs = sm_ordinal.OrderedModel(answers, x, distr="logit").fit(
+        method="bfgs", disp=False, maxiter=500
+    )
     assert proportional_odds(answers, x) == pytest.approx(theirs.llf, abs=1e-5)
 
 

@@ -6,18 +6,16 @@ from random import Random
 
 import numpy as np
 import pandas as pd
-import pingouin
 import pytest
-import statsmodels.formula.api as smf
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
-from statsmodels.stats.anova import anova_lm
 
 from analysis.sources.absent import Refusal
 from analysis.sources.factors import COMPLEXITY, OUTCOMES
 from analysis.sources.frames import Paired, StudyData, paired
 from analysis.stats.anova import BETWEEN, EFFECTS, WITHIN, Effect, mixed_anova
+from tests.analysis.peers import pingouin, sm_anova, smf
 
 ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
@@ -67,7 +65,7 @@ def test_a_design_of_fewer_levels_is_tested_as_statsmodels_tests_it(
         {"knowledge": fewer.knowledge, "complexity": fewer.complexity, "y": fewer.difference}
     )
     crossed = "C(knowledge, Sum)" + (" * C(complexity, Sum)" if len(levels) > 1 else "")
-    theirs = anova_lm(smf.ols(f"y ~ {crossed}", people).fit(), typ=3)
+    theirs = sm_anova.anova_lm(smf.ols(f"y ~ {crossed}", people).fit(), typ=3)
     ours = {effect.effect: effect.test for effect in mixed_anova(fewer)}
     names = {
         "Intercept": "adaptivity",
@@ -162,7 +160,7 @@ def test_equals_sum_coded_regression(study: StudyData, outcome: str) -> None:
     ours = {effect.effect: effect.test for effect in mixed_anova(pair)}
     for variable, names in (("b", BETWEEN), ("d", WITHIN)):
         model = smf.ols(f"{variable} ~ C(knowledge, Sum) * C(level, Sum)", long_frame(pair)).fit()
-        table = anova_lm(model, typ=3)
+        table = sm_anova.anova_lm(model, typ=3)
         assert len(table) == len(names) + 1
         for name, (_, line) in zip(names, table.iterrows(), strict=False):
             test = ours[name]

@@ -4,18 +4,17 @@ import gc
 
 import numpy as np
 import pandas as pd
-import pingouin
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
-from statsmodels.stats.multitest import multipletests
 
 from analysis.sources.absent import Refusal
 from analysis.stats.corrections import adjusted
 from analysis.stats.effect_sizes import eta_interval, t_noncentrality
 from analysis.stats.equivalence import jzs_bayes_factor, paired_row
 from analysis.stats.reliability import cronbach_alpha
+from tests.analysis.peers import pingouin, sm_multitest
 
 
 @given(
@@ -53,7 +52,7 @@ def test_corrections_equal_statsmodels(family: list[float]) -> None:
     for name, method in (("p_bonf", "bonferroni"), ("p_sidak", "sidak"), ("p_holm", "holm")):
         with pytest.MonkeyPatch.context() as patch, np.errstate(divide="ignore"):
             patch.setattr(gc, "collect", lambda: 0)  # which it calls each time
-            theirs = multipletests(family, method=method)[1]
+            theirs = sm_multitest.multipletests(family, method=method)[1]
         assert [row[name] for row in ours] == pytest.approx(theirs.tolist(), abs=1e-12)
 
 

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-import statsmodels.formula.api as smf
 from scipy import optimize, stats
 
 from analysis.sources.absent import Absent, Refusal
@@ -14,6 +13,7 @@ from analysis.sources.factors import OUTCOMES
 from analysis.sources.frames import StudyData, paired
 from analysis.stats.anova import difference_model, mixed_anova, sum_model
 from analysis.stats.mixed import fit_random_intercept, mixed_model, sum_coded
+from tests.analysis.peers import smf
 
 
 def with_holes(study: StudyData, outcome: str, share: float = 0.15, seed: int = 2) -> StudyData:

@@ -6,9 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import pingouin
 import pytest
-import statsmodels.formula.api as smf
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate, stats
@@ -26,6 +24,7 @@ from analysis.stats.posthoc import (
     difference_knowledge_within_complexity,
 )
 from analysis.stats.reliability import alpha_rows, cronbach_alpha
+from tests.analysis.peers import pingouin, smf
 
 p_lists = st.lists(st.floats(0, 1), min_size=1, max_size=12)
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-import statsmodels.formula.api as smf
 
 from analysis.battery import run_battery
 from analysis.pages.manuscript.part import Found, Part
@@ -18,6 +17,7 @@ from analysis.sources.absent import Refusal
 from analysis.sources.frames import StudyData
 from analysis.stats.rounds import rounds_rows
 from game.tables.exclusions import read_rules
+from tests.analysis.peers import smf
 
 BUILDINGS = ("a", "b", "c")
 
