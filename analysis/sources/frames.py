@@ -66,6 +66,11 @@ class StudyData:
         """The rounds with a row a participant; columns are (measure, static or adaptive)."""
         return self.rounds.pivot(index="participant", columns="adaptivity")
 
+    @cached_property
+    def pairs(self) -> dict[str, "Paired"]:
+        """What `paired` has found, by outcome."""
+        return {}
+
     def need_groups(self) -> None:
         """Raise Refusal where there are no knowledge groups."""
         if not self.has("knowledge"):
@@ -238,6 +243,12 @@ def paired(study: StudyData, outcome: str) -> Paired:
     Raises Refusal where the study has no knowledge groups.
     """
     study.need_groups()
+    if outcome not in study.pairs:
+        study.pairs[outcome] = _paired(study, outcome)
+    return study.pairs[outcome]
+
+
+def _paired(study: StudyData, outcome: str) -> Paired:
     wide = both_rounds(study, outcome)
     people = study.participants.loc[wide.index]
     people = people[people["knowledge"].notna()]
