@@ -61,6 +61,7 @@ def edit(folder: Path, name: str, before: str, after: str) -> Study:
     return open_study(folder)
 
 
+@pytest.mark.long
 def test_a_new_study_is_well(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "check", str(folder)]) == 0
     assert "all is well" in capsys.readouterr().out

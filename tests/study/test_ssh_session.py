@@ -49,9 +49,12 @@ from tests.study.server import ANA, BY_KEY, SSH, SSHD, Server, login
 
 Kind = TypeVar("Kind")
 
-pytestmark = pytest.mark.skipif(
-    SSHD is None or SSH is None, reason="OpenSSH's server or client is not installed"
-)
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(
+        SSHD is None or SSH is None, reason="OpenSSH's server or client is not installed"
+    ),
+]
 P01 = Identity("live", "P01")
 QUICK = {
     "memorise_seconds": "[1, 2]",

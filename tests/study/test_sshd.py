@@ -17,6 +17,7 @@ from tests.study.people import cut_off, journal_of, small_study
 from tests.study.server import BY_KEY, SSH, SSHD, Server, login
 from tests.terminal import Terminal
 
+pytestmark = pytest.mark.long
 needs_sshd = pytest.mark.skipif(
     SSHD is None or SSH is None, reason="OpenSSH's server or client is not installed"
 )

@@ -63,6 +63,7 @@ def test_who_cannot_be_read_can_be_left_out(folder: Path, tmp_path: Path, name: 
     assert [path.name for path in (out / "data/raw/live").iterdir()] == ["P02"]
 
 
+@pytest.mark.long
 def test_versions_that_cannot_be_read_are_not_left_out(folder: Path, tmp_path: Path) -> None:
     (folder / "versions").chmod(0)
     (folder / JOURNAL).chmod(0)

@@ -21,7 +21,10 @@ from tests.study.people import cut_off, finished_study, journal_of, small_study
 from tests.web.chromium import CHROMIUM, Chromium, Tab, Wire
 from tests.web.served import Served, until
 
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed"),
+]
 READY = "arrow keys"
 MAP = "Memorise the map"
 

@@ -123,6 +123,7 @@ def opened() -> Opened:
     return open_source(str(SHIPPED))
 
 
+@pytest.mark.long
 def test_every_figure_of_the_notebooks_is_whole(opened: Opened) -> None:
     missions, table = read_missions(opened.folder), evaluations(opened.recorded, opened.study)
     compared = read_comparison(SHIPPED / "coaches.json")

@@ -34,6 +34,7 @@ def test_stored_with_what_it_shows_and_with_one_parameter(path: Path) -> None:
 LONG = ("00", "08", "09", "12", "13")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_the_notebooks_run_on_the_shipped_study(every: bool) -> None:
     paths = [path for path in notebooks() if every or path.name[:2] not in LONG]

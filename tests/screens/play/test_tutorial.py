@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
+import pytest
 from textual.pilot import Pilot
 
 from game.coach.acts import InstructionIssued
@@ -43,6 +44,7 @@ async def walk(pilot: Pilot[None], leg: LegScreen) -> None:
         leg.refresh_view()
 
 
+@pytest.mark.long
 async def test_the_tutorial_goes_through_three_ways_of_telling(
     open_app: Open, tmp_path: Path
 ) -> None:

@@ -51,12 +51,14 @@ def japanese_study(folder: Path) -> Study:
     return open_study(folder)
 
 
+@pytest.mark.long
 def test_a_study_in_wide_characters_is_drawn_whole_on_every_page(tmp_path: Path) -> None:
     pages = rehearsed(japanese_study(tmp_path / "study"), pictures=False)
     assert len(pages) > 40
     assert not {page.name: page.missing for page in pages if page.missing}
 
 
+@pytest.mark.long
 def test_nobody_in_a_german_study_reads_english(tmp_path: Path) -> None:
     new_study(tmp_path / "study", seed=3, blocks=1, language="de")
     study = open_study(tmp_path / "study")

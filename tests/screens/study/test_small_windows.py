@@ -46,6 +46,7 @@ async def test_a_small_window_is_asked_to_grow(study: Study) -> None:
     assert not records(study, QuestionnaireAnswer, "sliders")
 
 
+@pytest.mark.long
 async def test_the_clock_of_the_map_stands_still_while_nothing_can_be_seen(study: Study) -> None:
     async with at(study, Step("memorise", 2)) as pilot:
         await until(pilot, PageScreen)

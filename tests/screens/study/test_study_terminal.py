@@ -115,6 +115,7 @@ def newest(study: Study, kind: type, segment: int) -> list[Entry]:
     ]
 
 
+@pytest.mark.long
 def test_killed_while_memorising_and_back(study: Study, opened: Callable[[], Terminal]) -> None:
     rewind(study, Step("memorise", 1))
     first = opened()
