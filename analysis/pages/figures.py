@@ -196,8 +196,13 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
     """adaptive - static of every outcome in standard deviations of its static round.
 
     The analysis cells count equally, as in the ANOVA's test; without knowledge groups or with an
-    empty cell people count equally, and the label says so.
+    empty cell people count equally, and the label says so. Raises Refusal where no outcome has an
+    estimate.
     """
+    estimates = {outcome: attempt(overall, study, outcome) for outcome in study.outcomes}
+    lacking = [one.reason for one in estimates.values() if isinstance(one, Absent)]
+    if len(lacking) == len(estimates):
+        raise Refusal("; ".join(dict.fromkeys(lacking)))
     outer, inner = 1 - alpha, 1 - 2 * alpha
     thin, thick = percent(outer), percent(inner)
     with quiet_style():
@@ -209,8 +214,7 @@ def adaptivity_estimates(study: StudyData, alpha: float = ALPHA) -> Captioned:
         axes.axvline(0, color=INK, linewidth=0.8)
         labels = []
         reach = BOUND_SDS
-        for at, outcome in enumerate(study.outcomes):
-            estimate = attempt(overall, study, outcome)
+        for at, (outcome, estimate) in enumerate(estimates.items()):
             if isinstance(estimate, Absent):
                 labels.append(outcome)
                 reason = fill(f"no estimate: {estimate.reason}", 30)
@@ -299,7 +303,9 @@ def figures_of(study: StudyData, alpha: float = ALPHA) -> Iterator[Captioned]:
         yield fig8_performance(study)
         if states:
             yield fig9_adaptivity(study, first_state(study), alpha)
-    yield adaptivity_estimates(study, alpha)
+    estimates = attempt(adaptivity_estimates, study, alpha)
+    if not isinstance(estimates, Absent):
+        yield estimates
     if study.has("knowledge"):
         for outcome in study.outcomes:
             yield cells_figure(study, outcome, alpha)

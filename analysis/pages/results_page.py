@@ -11,7 +11,7 @@ from analysis.pages.manuscript import Section, figures_in, tables_of
 from analysis.pages.notebook import Shown, show
 from analysis.pages.other_programs import write_for_other_programs
 from analysis.pages.style import SIMULATED, VERMILION, Captioned, save_figures
-from analysis.sources.absent import plain
+from analysis.sources.absent import Absent, plain
 from analysis.sources.frames import StudyData
 from analysis.sources.provenance import Provenance
 
@@ -124,7 +124,8 @@ def _provenance_html(made: Provenance) -> str:
     seeds = ", ".join(f"{name} = {seed}" for name, seed in made.seeds.items())
     libraries = ", ".join(f"{name} {version}" for name, version in made.libraries.items())
     rows = {
-        "Program": f"ana {made.version}" + (f", commit {made.commit}" if made.commit else ""),
+        "Program": f"ana {made.version}, "
+        + (made.commit.reason if isinstance(made.commit, Absent) else f"commit {made.commit}"),
         "Date": made.date,
         "Inputs": f"{len(made.inputs)} files (listed in provenance.json), SHA-256 {made.sha256}",
         "Settings": settings,
@@ -146,7 +147,13 @@ def show_section(section: Section) -> Shown:
 
 
 def show_table(sections: Sequence[Section], name: str) -> Shown:
-    """The table of this name in a notebook. Raises KeyError where there is none."""
+    """The table of this name in a notebook, or that it could not be computed. Raises KeyError
+    where there is none."""
+    for section in sections:
+        for table in section.left_out:
+            if table.name == name:
+                told = f"{table.title}: not computed from these people."
+                return Shown(f"<p>{escape(told)}</p>", told)
     found = next((one for one in tables_of(sections) if one.table.name == name), None)
     if found is None:
         raise KeyError(name)

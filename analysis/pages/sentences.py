@@ -3,7 +3,7 @@
 Each takes a row of the results as `ana analyse --json` writes it; a null in it becomes a dash.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from analysis.stats.apa import DASH, bounded, decimal, equals, p_value, share
@@ -71,12 +71,8 @@ def anova_sentence(outcome: str, row: Numbers, alpha: float) -> str:
 def level_sentence(
     state: str, knowledge: str, greater: str, less: str, row: Numbers, alpha: float
 ) -> str:
-    """Two static levels compared within a knowledge group; `row` is greater less less."""
-    if row["estimate"] is None:
-        return (
-            f"{knowledge}-knowledge participants: {greater} and {less} cannot be compared on "
-            f"{state}, because one of the cells is empty."
-        )
+    """Two static levels compared within a knowledge group; `row` is greater less less, of two cells
+    with people."""
     if not _significant(row, alpha):
         return (
             f"{knowledge}-knowledge participants’ {state} did not differ significantly between "
@@ -87,6 +83,16 @@ def level_sentence(
         f"{knowledge}-knowledge participants reported {way} {state} with {greater} than with "
         f"{less} instructions, {_contrast(row, alpha)}."
     )
+
+
+def empty_cells_sentence(comparisons: Sequence[tuple[str, str, str, str]]) -> str:
+    """What an empty cell leaves out, by (state, group, level, level): each pair of levels once."""
+    states: dict[str, list[str]] = {}
+    for state, knowledge, *levels in comparisons:
+        pair = " and ".join(sorted(levels))
+        states.setdefault(f"{knowledge}-knowledge participants at {pair}", []).append(state)
+    told = "; ".join(f"{pair} ({', '.join(names)})" for pair, names in states.items())
+    return f"Not compared, because one of the two cells is empty: {told}."
 
 
 def gain_sentence(outcome: str, greater: str, less: str, row: Numbers, alpha: float) -> str:
@@ -158,7 +164,10 @@ def factor(value: float) -> str:
 def alpha_sentence(row: Numbers, alpha: float, printed: str) -> str:
     """Cronbach's alpha beside the paper's."""
     if row["listwise"] is None:
-        return "Cronbach's *α* of the four preference items cannot be computed."
+        return (
+            "Cronbach's *α* of the four preference items cannot be computed: that takes two people "
+            "who answered all of them, and not all alike."
+        )
     ends = bounded_interval(row["lower"], row["upper"], 3)
     return (
         f"Cronbach's *α* of the four preference items was {bounded(row['listwise'])}, "

@@ -24,6 +24,8 @@ LIBRARIES = ("numpy", "scipy", "pandas", "matplotlib")
 #: Set by builds that must give the same bytes: the date in seconds since 1970.
 DATE_VARIABLE = "SOURCE_DATE_EPOCH"
 _ROOT = Path(__file__).resolve().parents[2]
+_CODE = ("analysis", "game")
+_THIS = "analysis/sources/provenance.py"
 
 
 @dataclass(frozen=True)
@@ -36,10 +38,10 @@ class InputFile:
 
 @dataclass(frozen=True)
 class Provenance:
-    """All that a reader needs to get the same results again. `commit` is None outside a clone."""
+    """All that a reader needs to get the same results again. `commit` is Absent outside a clone."""
 
     version: str
-    commit: str | None
+    commit: str | Absent
     inputs: tuple[InputFile, ...]
     date: str
     settings: Mapping[str, Leaf]
@@ -54,14 +56,14 @@ class Provenance:
 
     def line(self) -> str:
         """The provenance in a line, without the date."""
-        commit = f", commit {self.commit}" if self.commit else ""
+        commit = "" if isinstance(self.commit, Absent) else f", commit {self.commit}"
         return f"ana {self.version}{commit}; inputs SHA-256 {self.sha256}"
 
     def row(self) -> Row:
         """The provenance as written to the results."""
         return {
             "ana": self.version,
-            "commit": self.commit or Absent("not run in a clone of the repository"),
+            "commit": self.commit,
             "date": self.date,
             "inputs_sha256": self.sha256,
             "inputs": [{"name": one.name, "sha256": one.sha256} for one in self.inputs],
@@ -84,7 +86,7 @@ def provenance(
         files[quiz.name] = quiz
     return Provenance(
         version=__version__,
-        commit=_commit(),
+        commit=commit_of(_ROOT),
         inputs=tuple(InputFile(name, _hash(path)) for name, path in sorted(files.items())),
         date=_now().isoformat(timespec="seconds"),
         settings=settings,
@@ -109,16 +111,34 @@ def _hash(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _commit() -> str | None:
-    """The commit of the clone that this runs in, marked where something in it was changed."""
-    if not (_ROOT / ".git").exists():
-        return None
-    command = ["git", "-C", str(_ROOT), "describe", "--always", "--dirty", "--abbrev=40"]
+def commit_of(code: Path) -> str | Absent:
+    """The commit of the running `code`, a folder with `analysis` and `game` in it, with `-dirty`
+    after it where those two are not as committed.
+
+    A repository around an installed package is not that of its code: one counts only if it begins
+    at the folder and tracks this very file. Absent, with the reason, where there is none, or where
+    git cannot be asked.
+    """
+    if not (code / ".git").exists():
+        return Absent("not run in a clone of the repository")
+    parts = [path for path in _CODE if (code / path).exists()]
     try:
-        run = subprocess.run(command, capture_output=True, text=True, check=True, timeout=10)
+        if not _git(code, "ls-files", "--", _THIS):
+            return Absent("not run in a clone of the repository")
+        commit = _git(code, "rev-parse", "HEAD")
+        changed = _git(code, "status", "--porcelain", "--untracked-files=all", "--", *parts)
     except (OSError, subprocess.SubprocessError):
-        return None
-    return run.stdout.strip() or None
+        return Absent("git, which knows the commit of this clone, could not be asked")
+    return f"{commit}-dirty" if changed else commit
+
+
+def _git(code: Path, *arguments: str) -> str:
+    """What git answers about the repository of `code`, whatever repository the caller's own
+    environment names."""
+    own = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    command = ["git", "-C", str(code), *arguments]
+    run = subprocess.run(command, capture_output=True, text=True, check=True, timeout=10, env=own)
+    return run.stdout.strip()
 
 
 def _now() -> datetime:

@@ -32,12 +32,13 @@ PARTS: Parts = (measures, participants, primary, *PRINTED[2:], rounds, levels, p
 @dataclass(frozen=True)
 class Section:
     """A part of the results with its tables numbered: sentences (*x* is an italic x), then tables,
-    then figures."""
+    then figures. `left_out` are the tables of which nothing could be computed."""
 
     title: str
     sentences: tuple[str, ...]
     tables: tuple[Numbered, ...]
     drawings: tuple[Drawing, ...]
+    left_out: tuple[ApaTable, ...] = ()
 
     @cached_property
     def figures(self) -> tuple[Captioned, ...]:
@@ -59,10 +60,16 @@ def manuscript(found: Found, parts: Parts = PARTS) -> list[Section]:
         sentences = [*([f"In this section {mapping}."] if mapping else []), *part.sentences]
         numbered = []
         for table in part.tables:
-            number += 1
-            numbered.append(_labelled(table, found.study).numbered(number))
+            if table.rows:
+                number += 1
+                numbered.append(_labelled(table, found.study).numbered(number))
+        left_out = tuple(table for table in part.tables if not table.rows)
+        if left_out:
+            titles = "; ".join(table.title for table in left_out)
+            why = "for want of people or because of empty cells"
+            sentences.append(f"Not computed, {why}: {titles}.")
         sections.append(
-            Section(part.title, tuple(sentences), tuple(numbered), tuple(part.drawings))
+            Section(part.title, tuple(sentences), tuple(numbered), tuple(part.drawings), left_out)
         )
     return sections
 

@@ -39,8 +39,10 @@ def adaptivity(found: Found) -> Part:
             (f"{first} over {second}", *contrast_cells(shown),
              points if published else DASH, line["p_printed"] if published else DASH)
         )  # fmt: skip
-    if sentences:
+    if any(row["estimate"] is not None for row in gains):
         sentences.append(DECIDES)
+    else:
+        rows = []
     ci = f"{percent(1 - found.alpha)} CI"
     table = ApaTable(
         "fig9",

@@ -149,7 +149,7 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
             "four mental states.",
         ),
     ]  # fmt: skip
-    if not specifications:
+    if all(isinstance(row["p"], Absent) for row in specifications):
         return tables, []
     shown = drawing(specification_figure, specifications, simulated=study.simulated, alpha=alpha)
     return tables, [shown]

@@ -8,7 +8,7 @@ from analysis.pages.figures import fig7_mental_states
 from analysis.pages.manuscript.contrasts import contrast_cells, turned
 from analysis.pages.manuscript.part import Found, Numbers, Part, drawing
 from analysis.pages.published import POSTHOC_FILE, printed
-from analysis.pages.sentences import DECIDES, level_sentence
+from analysis.pages.sentences import DECIDES, empty_cells_sentence, level_sentence
 from analysis.stats.apa import DASH, MINUS
 from analysis.stats.cellmodel import cell_words
 from analysis.stats.level import percent
@@ -20,19 +20,24 @@ def mental_states(found: Found) -> Part:
     """Fig. 7 and the comparisons that the paper prints (section 5.4, paragraphs 2 and 3)."""
     lines = printed(found.paper, POSTHOC_FILE)
     lines = lines[lines["round"] == "static"]
-    sentences, rows = [], []
+    sentences, rows, empty = [], [], []
     for line in lines.to_dict("records"):
         row = _level_row(found, line["outcome"], line["knowledge"], line["greater"], line["less"])
         if row is None:
             continue
         words = (line["outcome"], line["knowledge"], line["greater"], line["less"])
-        sentences.append(level_sentence(*words, row, found.alpha))
+        if row["estimate"] is None:
+            empty.append(words)
+        else:
+            sentences.append(level_sentence(*words, row, found.alpha))
         rows.append(
             (line["outcome"], line["knowledge"], f"{line['greater']} > {line['less']}",
              *contrast_cells(row), _printed_p(line))
         )  # fmt: skip
     if sentences:
         sentences.append(DECIDES)
+    if empty:
+        sentences.append(empty_cells_sentence(empty))
     head = (
         "*M* difference", f"{percent(1 - found.alpha)} CI", "*t*", "*df*", "*p*", "*p* Holm",
         "*d*", f"*d* {percent(1 - found.alpha)} CI",
@@ -47,14 +52,14 @@ def mental_states(found: Found) -> Part:
         (state, row["knowledge"], row["contrast"].replace("-", MINUS), *contrast_cells(row))
         for state in found.study.asked.mental_states
         for row in found.own(state)[_WITHIN] or ()
-        if row["adaptivity"] == "static"
+        if row["adaptivity"] == "static" and row["estimate"] is not None
     ]
     tables = [
         ApaTable(
             "fig7_printed",
             "Static levels compared within knowledge groups: the comparisons that the paper prints",
             ("Outcome", "Group", "As published", *head, "*p* paper"),
-            tuple(rows),
+            tuple(rows) if len(empty) < len(rows) else (),
             note + " A dash in the last column: claimed in a caption or in section 5.5 without a "
             "test.",
         ),

@@ -92,6 +92,8 @@ def _means_table(found: Found) -> ApaTable:
             for row in own["emm"]["knowledge_complexity_adaptivity"]
         }
         for cell in own["cells"]:
+            if not cell["n"]:
+                continue
             mean = ends[cell["knowledge"], cell["complexity"], cell["adaptivity"]]
             rows.append(
                 (outcome, cell["knowledge"], cell["complexity"], cell["adaptivity"],
@@ -104,5 +106,6 @@ def _means_table(found: Found) -> ApaTable:
         ("Outcome", "Group", "Level", "Round", "*n*", "*M*", "*SD*",
          f"{percent(1 - found.alpha)} CI"),
         tuple(rows),
-        "Intervals are of the mean, from the round's pooled error.",
+        "Intervals are of the mean, from the round's pooled error. A cell without anybody is left "
+        "out.",
     )  # fmt: skip

@@ -87,6 +87,35 @@ def test_every_printed_number_stands_beside_ours(sections: list[Section]) -> Non
     assert [(row[0], *row[-2:]) for row in gains] == [("HIGH C1 over LOW C1", "26.44", ".021")]
 
 
+@pytest.mark.parametrize("people", [1, 5])
+def test_few_people_leave_no_empty_table_and_no_sentence_twice(
+    people: int, read_table: ReadTable, make_table: MakeTable
+) -> None:
+    table = make_table(dict.fromkeys(CELLS, 8)).drop(columns="disobeyed")
+    few = sections_of(read_table(table.groupby("participant").head(2).head(2 * people)))
+    assert all(numbered.table.rows for numbered in tables_of(few))
+    told = [sentence for section in few for sentence in section.sentences]
+    assert sum("is empty" in sentence for sentence in told) <= 2
+    left_out = [lost for section in few for lost in section.left_out]
+    for lost in left_out:
+        assert sum(lost.title in sentence for sentence in told) == 1
+    assert len({lost.name for lost in left_out}) == len(left_out) > 0
+    drawn = {figure.name for section in few for figure in section.figures}
+    assert ("adaptivity_estimates" in drawn) == (people > 1)
+
+
+def test_alpha_of_one_person_is_a_dash_with_its_reason(
+    read_table: ReadTable, make_table: MakeTable
+) -> None:
+    study = read_table(make_table(dict.fromkeys(CELLS, 8)).head(2))
+    numbers = json.loads(run_battery(study, read_rules()).to_json())
+    assert numbers["alpha"]["all"]["listwise"] is None
+    reasons = {at: row["reason"] for row in numbers["absent"] for at in row["paths"]}
+    assert reasons["alpha.all.listwise"] == "fewer than two people answered"
+    rows = table_called(sections_of(study), "alpha").rows
+    assert [row[2:4] for row in rows] == [("–", "–")] * 3
+
+
 def test_the_papers_contrast_is_worded_as_in_the_paper(sections: list[Section]) -> None:
     told = [text for section in sections for text in section.sentences if "26.44" in text]
     assert len(told) == 1
