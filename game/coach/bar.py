@@ -47,7 +47,7 @@ class Bar:
         self.guidance = Guidance("")
         self.shown: OnBar | None = None
         self.open = False
-        self._number = 0
+        self._number = self._completed = 0
         self._track: frozenset[Pose] = frozenset()
         self._ahead: set[Pose] = set()
         self._compliance = NOTHING_ASKED
@@ -88,7 +88,7 @@ class Bar:
         self._left = told.left(pose.cell)
         self._track = track(instruction, scene.settings.controls)
         self._ahead = set(self._track) - {pose}
-        self.guidance = Guidance(instruction.text, notice, self._number)
+        self.guidance = Guidance(instruction.text, notice, self._completed)
         return InstructionIssued(
             at_ms,
             number=self._number,
@@ -109,6 +109,7 @@ class Bar:
     def complete(self, at_ms: int) -> InstructionCompleted:
         """The instruction has been carried out; its words stay until others take their place."""
         self.open = False
+        self._completed += 1
         self._compliance = self._compliance.completed()
         return InstructionCompleted(at_ms, self._number)
 
@@ -129,7 +130,7 @@ class Bar:
         self._compliance = self._compliance.acted(distance, at_ms, nearer=nearer, follows=follows)
         if not (self._compliance.heeded and self.guidance.notice):
             return None
-        self.guidance = Guidance(self.shown.instruction.text, number=self._number)
+        self.guidance = Guidance(self.shown.instruction.text, completed=self._completed)
         return NoticeTakenDown(at_ms, self._number)
 
     def reached(self, pose: Pose) -> bool:

@@ -47,12 +47,13 @@ class Treatment:
 
 @dataclass(frozen=True, slots=True)
 class Guidance:
-    """What stands on the yellow bar. `notice` is a short correction shown before `text`; `number`
-    counts the instructions, and tells one from another in the same words."""
+    """What stands on the yellow bar. `notice` is a short correction shown before `text`.
+    `completed` counts the instructions carried out before it, and tells a new one from the last in
+    the same words."""
 
     text: str
     notice: str = ""
-    number: int = field(default=0, compare=False)
+    completed: int = field(default=0, compare=False)
 
 
 class Observation(NamedTuple):

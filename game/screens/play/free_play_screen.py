@@ -68,8 +68,9 @@ class Repeats:
         guidance = observation.guidance
         if guidance is None:
             return observation
-        if guidance.number != self._before.number:
-            self.again = self._before.number > 0 and guidance.text == self._before.text
+        done = guidance.completed > self._before.completed
+        if done or guidance.text != self._before.text:
+            self.again = done and guidance.text == self._before.text
             self._before = guidance
         if not self.again:
             return observation
@@ -143,7 +144,7 @@ class FreePlayScreen(MissionScreen):
     def show(self, observation: Observation) -> None:
         observation = deaths_told(self._repeats.of(observation), self.live.settings)
         said = observation.guidance or Guidance("")
-        repeated = self._repeats.again and said.number != self._said.number
+        repeated = self._repeats.again and said.completed != self._said.completed
         if self._rings and (repeated or announces(said, self._said)):
             self.app.bell()
         if repeated:

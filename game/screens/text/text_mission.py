@@ -351,8 +351,8 @@ class TextMission:
 
     def _tell_bar(self) -> None:
         guidance = self._run.observation().guidance or Guidance("")
-        repeated = guidance.text == self._guidance.text and self._guidance.number > 0
-        repeated = repeated and guidance.number != self._guidance.number
+        done = guidance.completed > self._guidance.completed
+        repeated = done and guidance.text == self._guidance.text
         if guidance == self._guidance and not repeated:
             return
         if guidance.notice and guidance.notice != self._guidance.notice:

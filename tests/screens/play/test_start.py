@@ -14,6 +14,8 @@ from game.coach.spec import parse_coach
 from game.journal.history import read_history
 from game.journal.reader import read_journal
 from game.journal.records import Paused
+from game.rescuers.driver import drive
+from game.rescuers.literal import LiteralReader
 from game.screens.play.app import AnaApp
 from game.screens.play.free_play_screen import (
     DIED_MS,
@@ -311,18 +313,27 @@ async def test_what_the_level_key_asked_for_covers_nothing(open_app: Open) -> No
 def test_the_same_words_once_more_are_told_from_those_before(ward: Building) -> None:
     run, _ = start_in_memory(ward, MissionSettings(), parse_coach("static", 1), 1, rescuer="it")
     observation, repeats = run.observation(), Repeats()
-    assert observation.guidance is not None and observation.guidance.number == 1
 
-    def shown_text(text: str, number: int) -> str:
-        seen = repeats.of(observation._replace(guidance=Guidance(text, number=number)))
+    def shown_text(text: str, completed: int) -> str:
+        seen = repeats.of(observation._replace(guidance=Guidance(text, completed=completed)))
         assert seen.guidance is not None
         return seen.guidance.text
 
     walk = "Walk forward 12 steps."
-    assert shown_text(walk, 1) == walk and shown_text(walk, 1) == walk
-    assert shown_text(walk, 2) == f"Again: {walk}" == shown_text(walk, 2)
+    assert shown_text(walk, 0) == walk and shown_text(walk, 0) == walk
+    assert shown_text(walk, 1) == f"Again: {walk}" == shown_text(walk, 1)
     assert repeats.again
-    assert shown_text("Turn left.", 3) == "Turn left." and not repeats.again
-    assert Guidance(walk, number=1) == Guidance(walk, number=2), (
-        "the screens of a study see no more"
-    )
+    assert shown_text(walk, 2) == f"Again: {walk}"
+    assert shown_text("Turn left.", 2) == "Turn left." and not repeats.again
+    assert shown_text(walk, 2) == walk, "told the same way again: nothing was carried out"
+    assert Guidance(walk, completed=1) == Guidance(walk, completed=2), "to a study"
+
+
+def test_the_bar_counts_what_was_carried_out(ward: Building) -> None:
+    rules = MissionSettings()
+    run, _ = start_in_memory(ward, rules, parse_coach("static", 1), 1, rescuer="it")
+    first = run.observation().guidance
+    drive(run, LiteralReader("compass", {}), done=lambda: run.mission.rescued > 0)
+    last = run.observation().guidance
+    assert first is not None and last is not None
+    assert first.completed == 0 < last.completed
