@@ -115,6 +115,10 @@ class Tab(Ending):
 
         own_loop.run(self.page.route(f"{address}**", answer))
 
+    def before_each_page(self, script: str) -> None:
+        """Run a script before any of a page's own."""
+        own_loop.run(self.page.add_init_script(script))
+
     def reload(self) -> None:
         """Press the browser's own key for it, and agree to leave."""
         own_loop.run(self.page.reload())

@@ -127,6 +127,27 @@ def test_letters_are_as_large_as_the_window_allows(tab: Tab, size: tuple[int, in
     tab.wait_for(READY)
 
 
+def test_a_browser_without_webgl_has_all_columns(served: Served, chromium: Chromium) -> None:
+    tab = chromium.tab()
+    tab.before_each_page(
+        "const real = HTMLCanvasElement.prototype.getContext;"
+        "HTMLCanvasElement.prototype.getContext = function (kind, ...more) {"
+        " return kind === 'webgl2' ? null : real.call(this, kind, ...more); };"
+    )
+    tab.open(served.link("P03"))
+    tab.wait_for(READY)
+    screen, letter = tab.evaluate(
+        "(() => { const pen = new OffscreenCanvas(9, 9).getContext('2d');"
+        " pen.font = `${document.querySelector('#terminal').dataset.fontSize}px \"Roboto Mono\"`;"
+        " return [document.querySelector('.xterm-screen').getBoundingClientRect().width,"
+        " pen.measureText('W').width] })()"
+    )
+    assert tab.evaluate("document.querySelectorAll('.xterm-rows > div').length") == 40
+    assert screen / letter == pytest.approx(120, abs=0.5)
+    assert screen <= tab.evaluate("innerWidth")
+    tab.close()
+
+
 def test_the_wheel_does_nothing(tab: Tab) -> None:
     before = tab.keys
     for pixels in (300, -300) * 5:

@@ -24,6 +24,7 @@ function begin(told) {
   let ending = null;
   let small = false;
   let letters = 0;
+  let whole = true; // the terminal's cells have whole pixels: so where it draws on a canvas
   let makeTerminal = null;
 
   // --- notices ----------------------------------------------------------------------------------
@@ -138,9 +139,16 @@ function begin(told) {
   }, ASK_MS);
 
   window.WebSocket = class Line extends EventTarget {
-    constructor() {
+    constructor(address) {
       super();
       line = this;
+      const has = new URL(address, document.baseURI).searchParams;
+      if (whole && has.get("width") < told.columns) { // it has no canvas, and so wider cells
+        whole = false;
+        letters = 0;
+        setTimeout(fit);
+        return;
+      }
       if (socket) say("r");
       else connect();
       setTimeout(() => this.dispatchEvent(new Event("open")));
@@ -162,7 +170,8 @@ function begin(told) {
     context.font = `${size}px "Roboto Mono"`;
     const { width, fontBoundingBoxAscent: up, fontBoundingBoxDescent: down } = context.measureText("W");
     const dots = window.devicePixelRatio;
-    return [Math.floor(width * dots) / dots, Math.ceil((up + down) * dots) / dots];
+    const wide = whole ? Math.floor(width * dots) / dots : width + 1 / told.columns;
+    return [wide, Math.ceil((up + down) * dots) / dots];
   }
 
   function largest() {
