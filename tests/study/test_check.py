@@ -13,14 +13,17 @@ from PIL import Image
 from game.cli import main
 from game.errors import AnaError
 from game.screens.study import pictures, rehearsal
+from game.screens.study.base import Frame
+from game.screens.study.pages import PageScreen
 from game.screens.study.pictures import write_pictures
-from game.screens.study.rehearsal import Rehearsed, rehearsed
+from game.screens.widgets.theme import LOOK
 from game.study.folder import Study, StudyError, new_study, open_study
 from game.study.lab.readiness import shortfalls
 from game.study.lab.stated_design import outdated
 from game.study.lab.stated_times import contradicted, stated
 from game.study.languages import languages
-from game.study.texts import shipped_texts
+from game.study.study_settings import ScreenSize
+from game.study.texts import Page, shipped_texts
 
 
 @pytest.fixture(scope="module")
@@ -47,10 +50,6 @@ def short(folder: Path) -> Path:
     edit(folder, "study.toml", "label_seconds", f"{FEW_PAGES}label_seconds")
     edit(folder, "study.toml", "duration_ms = 240000", "duration_ms = 8000")
     return folder
-
-
-def page(pages: list[Rehearsed], title: str) -> Rehearsed:
-    return next(one for one in pages if title in one.name)
 
 
 def edit(folder: Path, name: str, before: str, after: str) -> Study:
@@ -105,10 +104,11 @@ def test_words_that_cannot_be_seen_fail_it(short: Path, capsys: pytest.CaptureFi
     assert "these words are cut off or hidden" in capsys.readouterr().err
 
 
-def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(short: Path, tmp_path: Path) -> None:
-    more = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
-    study = edit(short, "texts.toml", "You can now close this window.", f"{more}\n\nThe very end.")
-    last = page(rehearsed(study), "Thank you for taking part")
+async def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(tmp_path: Path) -> None:
+    body = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
+    long, frame = Page("Thanks", body), Frame(ScreenSize(), shipped_texts().words)
+    async with rehearsal.Showing(LOOK).run_test(size=(120, 40)) as pilot:
+        last = await rehearsal.shown(pilot, "", lambda: PageScreen(frame, long), body)
     assert len(last.pictures) > 1
     index = write_pictures([last], "Study", tmp_path / "pictures").read_text("utf-8")
     for part in range(1, len(last.pictures) + 1):

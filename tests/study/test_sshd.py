@@ -202,7 +202,6 @@ def test_a_shared_key_asks_for_the_id(server: Server, study: Study) -> None:
 @pytest.mark.parametrize(
     ("participant", "term", "colorterm", "colours"),
     [
-        ("C1", "screen", "", "16"),
         ("C2", "tmux-256color", "", "256"),
         ("C3", "xterm-256color", "truecolor", "truecolor"),
         ("C4", "screen", "truecolor", "16"),
