@@ -292,6 +292,7 @@ def analyse_source(
     figures: Path | None = None,
     mode: StudyMode | None = None,
     *,
+    columns: Path | None = None,
     report: Path | None = None,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
@@ -308,13 +309,13 @@ def analyse_source(
     """
     if bayes:
         need_bayes()
-    read = load(source, quiz, mode, check=check, tick=tick)
+    read = load(source, quiz, mode, columns=columns, check=check, tick=tick)
     loaded()
     rules = read_rules().known_to(list(read.study.participants.columns))
     result = run_battery(read.study, rules, alpha)
     if bayes:
         _add_bayes(result, alpha)
-    made = signed(result, source, quiz, mode, verified=check and is_study_folder(source))
+    made = signed(result, source, columns or quiz, mode, verified=check and is_study_folder(source))
     if figures is not None:
         from analysis.pages.figures import write_figures
 
@@ -353,12 +354,13 @@ def _add_bayes(result: BatteryResult, alpha: float) -> None:
 def signed(
     result: BatteryResult,
     source: Path,
-    quiz: Path | None = None,
+    beside: Path | None = None,
     mode: StudyMode | None = None,
     *,
     verified: bool,
 ) -> Provenance:
-    """Write into the results where they come from, and return it."""
+    """Write into the results where they come from, and return it; `beside` is the file that was
+    given with the source."""
     read: Mapping[str, Any] = result.results
     settings: dict[str, Leaf] = {
         "alpha": read["source"]["alpha_level"],
@@ -368,7 +370,7 @@ def signed(
     seeds = {"power": POWER_SEED, "bootstrap": BOOTSTRAP_SEED, "permutation": PERMUTATION_SEED}
     if "bayes" in read:
         seeds["bayes"] = BAYES_SEED
-    made = provenance(source, quiz, mode, settings, seeds)
+    made = provenance(source, beside, mode, settings, seeds)
     result.results["provenance"], _ = plain(made.row())
     return made
 

@@ -41,6 +41,8 @@ _PATH = click.Path(path_type=Path)
               help="Write the planned analysis of a study to FILE (.md, .docx).")  # fmt: skip
 @click.option("--figures", type=_PATH, metavar="DIR", help="Draw the figures into DIR.")
 @click.option("--quiz", type=_PATH, metavar="FILE", help="The quiz scores of a CSV source.")
+@click.option("--columns", type=_PATH, metavar="FILE.toml",
+              help="What is what in a table of another study.")  # fmt: skip
 @click.option("--mode", type=click.Choice(STUDY_MODES),
               help="Which sessions of a study folder, where there are several kinds.")  # fmt: skip
 @click.option("--alpha", type=click.FloatRange(0, 0.5, min_open=True, max_open=True),
@@ -58,6 +60,7 @@ def command(
     prereg: Path | None,
     figures: Path | None,
     quiz: Path | None,
+    columns: Path | None,
     mode: StudyMode | None,
     alpha: float,
     bayes: bool,
@@ -105,6 +108,7 @@ def command(
             quiz,
             figures,
             mode,
+            columns=columns,
             report=report,
             check=check,
             tick=_tell,

@@ -17,6 +17,7 @@ from analysis.stats.mixed import mixed_model
 from analysis.stats.order_effects import order_rows
 from analysis.stats.robust import permutation_rows, prior_rows, trimmed_row
 from analysis.stats.sensitivity import continuous_rows
+from analysis.stats.specifications import OUTCOME
 
 #: What a specification is made of, in the order of the figure's rows.
 CHOICES = ("sample", "groups", "model", "correction")
@@ -25,7 +26,7 @@ FLOOR = 1e-6
 
 
 def specification_figure(
-    rows: Sequence[Row], *, simulated: bool, alpha: float = ALPHA
+    rows: Sequence[Row], *, simulated: bool, alpha: float = ALPHA, outcome: str = OUTCOME
 ) -> Captioned:
     """p of the three-way effect under every specification; `rows` are those of
     `specification_rows`. Those without a p are counted in the caption."""
@@ -65,8 +66,8 @@ def specification_figure(
         return captioned(
             "specifications",
             figure,
-            "The effect of knowledge, static level and adaptivity on engagement under every "
-            "combination of sample, grouping of knowledge, model and correction over the four "
+            f"The effect of knowledge, static level and adaptivity on {outcome} under every "
+            "combination of sample, grouping of knowledge, model and correction over the "
             f"mental states: see whether p stays on one side of {bounded(alpha, 2)} (dotted), and "
             f"which choice moves it. A p below .000001 is drawn at .000001.{lost}",
             simulated=simulated,

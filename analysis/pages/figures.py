@@ -117,7 +117,10 @@ def fig7_mental_states(study: StudyData, alpha: float = ALPHA) -> Captioned:
 
 
 def fig8_performance(study: StudyData) -> Captioned:
-    """Victims rescued by knowledge group in each round (Fig. 8)."""
+    """Victims rescued by knowledge group in each round (Fig. 8). Raises Refusal where people had
+    no missions."""
+    if not study.missions:
+        raise Refusal("people had no missions")
     with quiet_style():
         figure = Figure(figsize=(TWO_COLUMNS, 3.4))
         panels = np.ravel(figure.subplots(1, 2, sharey=True))
@@ -300,7 +303,8 @@ def figures_of(study: StudyData, alpha: float = ALPHA) -> Iterator[Captioned]:
         states = study.asked.mental_states
         if states and len(study.crossed.levels) > 1:
             yield fig7_mental_states(study, alpha)
-        yield fig8_performance(study)
+        if study.missions:
+            yield fig8_performance(study)
         if states:
             yield fig9_adaptivity(study, first_state(study), alpha)
     estimates = attempt(adaptivity_estimates, study, alpha)

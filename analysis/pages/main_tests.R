@@ -7,12 +7,12 @@
 outcomes <- c(OUTCOMES)
 wide <- read.csv("wide.csv", colClasses = c(participant = "character"))
 wide$knowledge <- factor(wide$knowledge, levels = c("LOW", "MED", "HIGH"))
-wide$complexity <- factor(wide$complexity, levels = c("C1", "C2", "C3"))
+wide$complexity <- factor(wide$complexity, levels = c(LEVELS))
 options(contrasts = c("contr.sum", "contr.poly"))
 
 type3 <- function(y, data, suffix) {
   data$y <- y
-  fit <- lm(y ~ knowledge * complexity, data)
+  fit <- lm(if (nlevels(data$complexity) > 1) y ~ knowledge * complexity else y ~ knowledge, data)
   columns <- model.matrix(fit)
   which <- attr(columns, "assign")
   names <- c("(Intercept)", attr(terms(fit), "term.labels"))
@@ -39,6 +39,10 @@ results <- do.call(rbind, lapply(outcomes, function(outcome) {
                 type3((adaptive - static)[there] / sqrt(2), data, "adaptivity"))
   cbind(outcome = outcome, n = sum(there), both)
 }))
+if (is.null(results)) {
+  cat("No test: a cell of knowledge and level has nobody in it.\n")
+  quit(status = 0)
+}
 print(format(results, digits = 4), row.names = FALSE)
 out <- commandArgs(trailingOnly = TRUE)
 if (length(out)) write.csv(results, out[1], row.names = FALSE)

@@ -2,6 +2,7 @@
 
 import csv
 import io
+from collections.abc import Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -37,9 +38,14 @@ def wide_csv(study: StudyData) -> str:
 def write_for_other_programs(study: StudyData, folder: Path) -> None:
     """Write `wide.csv` and `main_tests.R` into a folder that exists."""
     (folder / "wide.csv").write_text(wide_csv(study), encoding="utf-8")
-    names = ", ".join(f'"{name}"' for name in study.outcomes)
-    script = SCRIPT.read_text(encoding="utf-8").replace("OUTCOMES", names)
+    script = SCRIPT.read_text(encoding="utf-8")
+    script = script.replace("OUTCOMES", _quoted(study.outcomes))
+    script = script.replace("LEVELS", _quoted(study.crossed.levels))
     (folder / SCRIPT.name).write_text(script, encoding="utf-8")
+
+
+def _quoted(names: Iterable[str]) -> str:
+    return ", ".join(f'"{name}"' for name in names)
 
 
 def _cell(value: object) -> str:

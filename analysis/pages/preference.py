@@ -15,7 +15,7 @@ from analysis.pages.style import (
     captioned,
     quiet_style,
 )
-from analysis.sources.absent import Absent, Row
+from analysis.sources.absent import Absent, Refusal, Row
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS
 from analysis.sources.frames import StudyData
 from analysis.stats.level import ALPHA, percent
@@ -27,7 +27,10 @@ STATEMENTS = dict(
 
 
 def statements_figure(study: StudyData) -> Captioned:
-    """How each statement was answered after either instructor."""
+    """How each statement was answered after either instructor. Raises Refusal where nobody was
+    asked."""
+    if not any(study.has(item) for item in LIKERT_ITEMS):
+        raise Refusal("nobody answered the statements")
     first, second = study.crossed.words
     words = dict(zip(ADAPTIVITY, study.crossed.words, strict=True))
     with quiet_style():

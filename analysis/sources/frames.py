@@ -48,11 +48,14 @@ class StudyData:
     asked: Outcomes = PAPER
     crossed: Crossed = PAPER_DESIGN
     every_round: pd.DataFrame | None = None
+    missions: bool = True
 
     @property
     def outcomes(self) -> tuple[str, ...]:
-        """What is analysed: victims, the mental states, and what is computed from the answers."""
-        return ("victims", *self.asked.mental_states, *self.asked.composites)
+        """What is analysed: victims, where people had missions, the mental states, and what is
+        computed from the answers."""
+        performance = ("victims",) if self.missions else ()
+        return (*performance, *self.asked.mental_states, *self.asked.composites)
 
     def has(self, column: str) -> bool:
         """Whether the source knows this column of `participants` or `rounds` at all."""
@@ -116,11 +119,12 @@ def make_study(
     simulated: bool = False,
     asked: Outcomes = PAPER,
     crossed: Crossed = PAPER_DESIGN,
+    checked: bool = False,
 ) -> StudyData:
     """Check the two tables, add `preference`, and put their rows in order.
 
-    `participants` is indexed by participant. Raises SourceError for an illegal or repeated value,
-    naming the participant.
+    `participants` is indexed by participant; answers that were `checked` before may be no whole
+    numbers. Raises SourceError for an illegal or repeated value, naming the participant.
     """
     if participants.empty:
         raise SourceError(f"{label}: no participants; nothing can be analysed")
@@ -136,7 +140,8 @@ def make_study(
             f"{label}: participant {first['participant']} has more than one row for the "
             f"{first['adaptivity']} round; keep one"
         )
-    for column, (least, most) in (RANGES | dict(asked.ranges)).items():
+    ranges = {} if checked else RANGES | dict(asked.ranges)
+    for column, (least, most) in ranges.items():
         if column in keyed.columns:
             _check_range(keyed[column], column, least, most, label)
     if "preference" not in rounds.columns:

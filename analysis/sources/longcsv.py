@@ -11,6 +11,7 @@ from pathlib import Path
 import pandas as pd
 
 from analysis.sources.absent import SourceError
+from analysis.sources.described import read_described
 from analysis.sources.factors import ADAPTIVITY, LIKERT_ITEMS, MENTAL_STATES, ORDERS
 from analysis.sources.frames import StudyData, make_study
 from analysis.sources.texttable import TextTable, is_missing, read_table
@@ -30,6 +31,37 @@ NUMBERS = (*MEASURED, *(name for name, is_number in PERSON_EXTRAS if is_number))
 TRUE_WORDS = frozenset({"true", "yes", "1"})
 FALSE_WORDS = frozenset({"false", "no", "0"})
 PREFERRED = ("static", "adaptive", "neither")
+
+
+def read_described_table(path: Path, columns: Path) -> StudyData:
+    """Read a table of another study, long as ours, of which a TOML file says what is what.
+
+    Raises SourceError naming file, line, column and a hint.
+    """
+    described = read_described(columns)
+    table = described.translated(read_table(path, described.participant))
+    rounds = table.cells[["participant", "adaptivity"]].copy()
+    for column, measure in described.measured.items():
+        rounds[column] = values = table.numbers(column, tuple(described.measured))
+        least, most = measure.range
+        for line, value in values[(values < least) | (values > most)].items():
+            raise SourceError(
+                f"{table.at(line)}: {column} is {value:g}; it must be from {least} to {most}"
+            )
+    if described.average:
+        rounds = rounds.groupby(["participant", "adaptivity"], as_index=False).mean()
+    for name, items in described.composites.items():
+        rounds[name] = rounds[list(items)].sum(axis=1, skipna=False)
+    absent = [name for name in (*MEASURED, "preference") if name not in rounds.columns]
+    study = make_study(
+        _one_row_a_person(table),
+        rounds.assign(**dict.fromkeys(absent, float("nan"))),
+        label=path.name,
+        asked=described.asked,
+        crossed=described.crossed,
+        checked=True,
+    )
+    return replace(study, missions=False).noted(*table.notes)
 
 
 def read_long_csv(path: Path, quiz: Path | None = None) -> StudyData:

@@ -75,15 +75,15 @@ class Provenance:
 
 def provenance(
     source: Path,
-    quiz: Path | None,
+    beside: Path | None,
     mode: StudyMode | None,
     settings: Mapping[str, Leaf],
     seeds: Mapping[str, int],
 ) -> Provenance:
-    """The provenance of what is made of these inputs, now."""
+    """The provenance of what is made of these inputs, now; `beside` is a file given with them."""
     files = {RULES_FILE.name: RULES_FILE, **dict(_files(source, mode))}
-    if quiz is not None:
-        files[quiz.name] = quiz
+    if beside is not None:
+        files[beside.name] = beside
     return Provenance(
         version=__version__,
         commit=commit_of(_ROOT),

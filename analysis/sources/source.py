@@ -6,7 +6,7 @@ from pathlib import Path
 from analysis.sources.absent import SourceError
 from analysis.sources.dataset import is_dataset, read_dataset
 from analysis.sources.frames import StudyData
-from analysis.sources.longcsv import read_long_csv
+from analysis.sources.longcsv import read_described_table, read_long_csv
 from analysis.sources.recorded import Recorded
 from analysis.sources.study_folder import (
     Tick,
@@ -31,22 +31,29 @@ def load(
     quiz: Path | None = None,
     mode: StudyMode | None = None,
     *,
+    columns: Path | None = None,
     check: bool = True,
     tick: Tick = lambda _done, _all: None,
 ) -> Loaded:
     """Read one table, with quiz scores if given, a study folder, a dataset exported from one, or
-    a folder of tables.
+    a folder of tables. `columns` is a TOML file that says what is what in one table.
 
     Raises SourceError or JournalError naming the place and a hint.
     """
     if source.is_dir():
         if quiz is not None:
             raise SourceError("--quiz goes with a CSV source; sessions have their own scores")
+        if columns is not None:
+            raise SourceError("--columns goes with one table; a study has its own forms")
         recorded = load_recorded(source, mode, check=check, tick=tick)
         return Loaded(recorded.study(), recorded)
     if mode is not None:
         raise SourceError("--mode goes with a study folder; a CSV has a column 'simulated'")
-    return Loaded(read_long_csv(source, quiz), None)
+    if columns is None:
+        return Loaded(read_long_csv(source, quiz), None)
+    if quiz is not None:
+        raise SourceError("--columns names the groups; give it without --quiz")
+    return Loaded(read_described_table(source, columns), None)
 
 
 def holds_live_sessions(source: Path, mode: StudyMode | None = None) -> bool:

@@ -125,8 +125,9 @@ class TextTable:
         return "comma" in found
 
 
-def read_table(path: Path) -> TextTable:
-    """The table in a file; rows without anything in them are left out.
+def read_table(path: Path, key: str = KEY) -> TextTable:
+    """The table in a file; rows without anything in them are left out. `key` is the column that
+    names the participant.
 
     Raises SourceError, naming the file, the place and the way out.
     """
@@ -142,10 +143,10 @@ def read_table(path: Path) -> TextTable:
         if data.startswith(magic):
             raise SourceError(f"this is {kind}, not a table of text", place=path.name, hint=hint)
     if data.startswith(b"PAR1"):
-        return _columnar(data, path)
+        return _columnar(data, path, key)
     if data.startswith(b"PK\x03\x04"):
-        return _workbook(data, path)
-    return _text(_decoded(data, path), path)
+        return _workbook(data, path, key)
+    return _text(_decoded(data, path), path, key)
 
 
 def _unpacked(data: bytes, path: Path) -> bytes:
@@ -187,17 +188,17 @@ def _decoded(data: bytes, path: Path) -> str:
     return text
 
 
-def _text(text: str, path: Path) -> TextTable:
+def _text(text: str, path: Path, key: str) -> TextTable:
     first = re.match(r"[^\r\n]*", text)
     stated = _SEP_LINE.fullmatch(first.group() if first else "")
     if not text.strip() or (stated and not text[stated.end() :].strip()):
         raise SourceError(f"{path.name}: this is not a CSV table: the file is empty")
-    separator = stated.group(1) if stated else _separator(text, path)
+    separator = stated.group(1) if stated else _separator(text, path, key)
     rows = [(at, row) for at, row in _rows(text, separator, path) if any(map(str.strip, row))]
     if stated:
         rows = rows[1:]
     notes = () if text.endswith(("\n", "\r")) else (_UNENDED,)
-    return _table(rows, path, "line", separator, notes)
+    return _table(rows, path, key, "line", separator, notes)
 
 
 _UNENDED = (
@@ -224,26 +225,26 @@ def _rows(text: str, separator: str, path: Path) -> Rows:
     return rows
 
 
-def _separator(text: str, path: Path) -> str:
-    """The separator that makes a column `participant` of the header."""
+def _separator(text: str, path: Path, key: str) -> str:
+    """The separator that makes a column `key` of the header."""
     header = next(line for line in text.splitlines() if line.strip())
     found = [
         separator
         for separator in SEPARATORS
-        if KEY in (name.strip().strip('"').strip() for name in header.split(separator))
+        if key in (name.strip().strip('"').strip() for name in header.split(separator))
     ]
     if len(found) == 1:
         return found[0]
-    if len(found) > 1 and header.strip().strip('"') == KEY:
+    if len(found) > 1 and header.strip().strip('"') == key:
         return ","
     raise SourceError(
-        f"{path.name}: no column {KEY!r} in its header ({header.strip()[:60]!r}), whether it is "
+        f"{path.name}: no column {key!r} in its header ({header.strip()[:60]!r}), whether it is "
         f"separated by {', '.join(SEPARATORS.values())}",
         hint="Name the columns in the first line, and separate them by commas",
     )
 
 
-def _columnar(data: bytes, path: Path) -> TextTable:
+def _columnar(data: bytes, path: Path, key: str) -> TextTable:
     try:
         frame = pd.read_parquet(io.BytesIO(data))
     except ImportError as error:
@@ -258,11 +259,11 @@ def _columnar(data: bytes, path: Path) -> TextTable:
         ) from error
     rows = [list(map(str, frame.columns))]
     rows += [[_typed(cell) for cell in row] for row in frame.itertuples(index=False, name=None)]
-    return _table(list(enumerate(rows, start=1)), path, "row", ",", ())
+    return _table(list(enumerate(rows, start=1)), path, key, "row", ",", ())
 
 
-def _workbook(data: bytes, path: Path) -> TextTable:
-    """The one sheet of a workbook whose first row has a column `participant`."""
+def _workbook(data: bytes, path: Path, key: str) -> TextTable:
+    """The one sheet of a workbook whose first row has a column `key`."""
     try:
         with ZipFile(io.BytesIO(data)) as archive:
             is_workbook = "xl/workbook.xml" in archive.namelist()
@@ -285,11 +286,11 @@ def _workbook(data: bytes, path: Path) -> TextTable:
         for sheet in values.worksheets
         if sheet.sheet_state == "visible"
     }
-    fitting = [name for name, rows in sheets.items() if rows and KEY in map(_typed, rows[0])]
+    fitting = [name for name, rows in sheets.items() if rows and key in map(_typed, rows[0])]
     if len(fitting) != 1:
         raise SourceError(
             f"{len(fitting) or 'none'} of its sheets ({', '.join(sheets)}) "
-            f"{'have' if len(fitting) > 1 else 'has'} a column {KEY!r} in the first row",
+            f"{'have' if len(fitting) > 1 else 'has'} a column {key!r} in the first row",
             place=path.name,
             hint="Leave the table alone in the workbook, its header in row 1",
         )
@@ -307,7 +308,7 @@ def _workbook(data: bytes, path: Path) -> TextTable:
     rows = [(at, [_typed(cell) for cell in row]) for at, row in enumerate(sheets[name], start=1)]
     other = [sheet for sheet in sheets if sheet != name]
     notes = (f"sheets not used: {', '.join(other)}",) if other else ()
-    return _table([row for row in rows if any(row[1])], path, "row", ",", notes)
+    return _table([row for row in rows if any(row[1])], path, key, "row", ",", notes)
 
 
 def _typed(cell: Any) -> str:
@@ -319,7 +320,9 @@ def _typed(cell: Any) -> str:
     return str(cell).strip()
 
 
-def _table(rows: Rows, path: Path, unit: Unit, separator: str, notes: tuple[str, ...]) -> TextTable:
+def _table(
+    rows: Rows, path: Path, key: str, unit: Unit, separator: str, notes: tuple[str, ...]
+) -> TextTable:
     if not rows:
         raise SourceError(f"{path.name}: the table is empty; nothing can be analysed")
     (header_at, header), *body = rows
@@ -341,12 +344,12 @@ def _table(rows: Rows, path: Path, unit: Unit, separator: str, notes: tuple[str,
         columns=names,
         dtype=str,
     )
-    if KEY not in names:
-        raise SourceError(f"{path.name}: {unit} {header_at}: no column {KEY!r}")
+    if key not in names:
+        raise SourceError(f"{path.name}: {unit} {header_at}: no column {key!r}")
     if frame.empty:
         raise SourceError(f"{path.name}: a header and no rows; nothing can be analysed")
     table = TextTable(path.name, frame, unit, separator, notes, header_at)
-    nameless = frame.index[frame[KEY] == ""]
+    nameless = frame.index[frame[key] == ""]
     if len(nameless):
         raise SourceError(f"{table.at(nameless[0])}: the participant is not named")
     return table

@@ -20,18 +20,19 @@ def adaptivity(found: Found) -> Part:
         if row["round"] != "static"
     )
     sentences, rows = [], []
-    gains = found.own("engagement")[_GAINS] or ()
+    outcome = first_state(found.study)
+    gains = found.own(outcome)[_GAINS] or ()
     one, other = line["greater"], line["less"]
     for row in gains:
         level = row["complexity"]
         pair = [f"{group} {level}" for group in row["contrast"].split(" - ")]
         turn = pair == [other, one]
         shown = turned(row) if turn else row
-        published = turn or pair == [one, other]
+        published = outcome == line["outcome"] and (turn or pair == [one, other])
         if published:
             points = found.printed("engagement gain of HIGH C1 over LOW C1")
             sentences.append(
-                gain_sentence("engagement", one, other, shown, found.alpha)
+                gain_sentence(outcome, one, other, shown, found.alpha)
                 + f" (Paper: {points} points, *p* = {line['p_printed']}.)"
             )
         first, second = (one, other) if turn else pair
@@ -46,14 +47,14 @@ def adaptivity(found: Found) -> Part:
     ci = f"{percent(1 - found.alpha)} CI"
     table = ApaTable(
         "fig9",
-        "Gain in engagement with adaptive instruction, compared between knowledge groups",
+        f"Gain in {outcome} with adaptive instruction, compared between knowledge groups",
         ("Contrast of adaptive − static", "*M* difference", ci, "*t*", "*df*", "*p*", "*p* Holm",
          "*d*", f"*d* {ci}", "Points paper", "*p* paper"),
         tuple(rows),
         "Holm adjusts over the three comparisons at a static level.",
     )  # fmt: skip
     drawings = [
-        drawing(fig9_adaptivity, found.study, first_state(found.study), found.alpha),
-        drawing(cells_figure, found.study, first_state(found.study), found.alpha),
+        drawing(fig9_adaptivity, found.study, outcome, found.alpha),
+        drawing(cells_figure, found.study, outcome, found.alpha),
     ]
     return Part("Adaptivity (section 5.4, paragraph 4; Fig. 9)", sentences, [table], drawings)

@@ -9,6 +9,7 @@ from analysis.pages.choices import (
     survival,
     trimmed_table,
 )
+from analysis.pages.figures import first_state
 from analysis.pages.manuscript.part import Drawing, Found, Numbers, Part, drawing
 from analysis.pages.sentences import EFFECT_WORDS, degrees, factor, interval, paired_sentence
 from analysis.sources.absent import Absent, Row, attempt
@@ -65,7 +66,7 @@ def beyond(found: Found) -> Part:
 
 def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
     """Tests that assume less, other priors, and the specification curve."""
-    study, alpha = found.study, found.alpha
+    study, alpha, outcome = found.study, found.alpha, first_state(found.study)
     ci = f"{percent(1 - alpha)} CI"
     tests = attempt(other_tests, study)
     tested = [] if isinstance(tests, Absent) else tests.reset_index().to_dict("records")
@@ -137,7 +138,7 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
         ),
         ApaTable(
             "specifications",
-            "The three-way effect on engagement over all specifications",
+            f"The three-way effect on {outcome} over all specifications",
             ("Choice", "Option", "Specifications", f"Share with *p* < {bounded(alpha, 2)}",
              "Greatest *p*"),
             tuple(
@@ -146,12 +147,18 @@ def _checks(found: Found) -> tuple[list[ApaTable], list[Drawing]]:
                 for row in map(_numbers, survival(specifications, alpha))
             ),
             "Every combination of sample, grouping of knowledge, model, and correction over the "
-            "four mental states.",
+            "mental states.",
         ),
     ]  # fmt: skip
     if all(isinstance(row["p"], Absent) for row in specifications):
         return tables, []
-    shown = drawing(specification_figure, specifications, simulated=study.simulated, alpha=alpha)
+    shown = drawing(
+        specification_figure,
+        specifications,
+        simulated=study.simulated,
+        alpha=alpha,
+        outcome=outcome,
+    )
     return tables, [shown]
 
 

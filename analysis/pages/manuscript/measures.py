@@ -7,6 +7,7 @@ from analysis.sources.factors import COMPLEXITY, KNOWLEDGE
 from analysis.stats.apa import DASH, bounded, decimal
 from analysis.stats.level import percent
 
+TITLE = "Measures (paper, section 5.3)"
 _ALPHA = "Cronbach's alpha of the four preference items"
 
 
@@ -49,6 +50,9 @@ def measures(found: Found) -> Part:
             "There are no knowledge groups: the source states none, and none could be formed from "
             "quiz scores."
         )
+    if not any(row["rows_any"] for row in numbers["alpha"].values()):
+        sentences.append("Nobody answered the four preference items.")
+        return Part(TITLE, sentences, tables, [])
     printed_alpha = f"{bounded(float(found.printed(_ALPHA)))}"
     sentences.append(alpha_sentence(numbers["alpha"]["all"], alpha, printed_alpha))
     tables.append(
@@ -69,7 +73,7 @@ def measures(found: Found) -> Part:
             "*n* counts rounds with all four answers; the interval is Feldt's.",
         )
     )
-    return Part("Measures (paper, section 5.3)", sentences, tables, [])
+    return Part(TITLE, sentences, tables, [])
 
 
 def _without(found: Found) -> str:

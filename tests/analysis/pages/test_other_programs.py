@@ -11,11 +11,12 @@ import pytest
 from analysis.pages.other_programs import wide_csv, write_for_other_programs
 from analysis.sources.factors import MENTAL_STATES, OUTCOMES
 from analysis.sources.frames import StudyData, both_rounds, paired
-from analysis.sources.longcsv import read_long_csv
+from analysis.sources.longcsv import read_described_table, read_long_csv
 from analysis.stats.anova import mixed_anova
 
 ReadTable = Callable[..., StudyData]
 MakeTable = Callable[..., pd.DataFrame]
+REFERENCE = Path(__file__).resolve().parents[2] / "reference"
 
 
 def test_the_wide_table_is_read_back_as_the_same_study(
@@ -33,15 +34,37 @@ def test_the_wide_table_is_read_back_as_the_same_study(
     pd.testing.assert_frame_equal(again.participants[same], study.participants[same])
 
 
+TABLE, TOML = (REFERENCE / f"obrien_kaiser.{kind}" for kind in ("csv", "toml"))
+
+
 @pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
 def test_r_gives_the_same_main_tests(study: StudyData, tmp_path: Path) -> None:
+    assert_r_agrees(study, tmp_path)
+
+
+@pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
+def test_r_gives_the_same_main_tests_with_two_levels(tmp_path: Path) -> None:
+    assert_r_agrees(read_described_table(TABLE, TOML), tmp_path)
+
+
+@pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
+def test_the_script_says_where_there_is_no_test(study: StudyData, tmp_path: Path) -> None:
+    people = study.participants
+    emptied = people.index[(people["knowledge"] == "LOW") & (people["complexity"] == "C1")]
+    write_for_other_programs(study.without(emptied), tmp_path)
+    command = ["Rscript", "main_tests.R"]
+    run = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    assert b"has nobody in it" in run.stdout
+
+
+def assert_r_agrees(study: StudyData, tmp_path: Path) -> None:
     write_for_other_programs(study, tmp_path)
     command = ["Rscript", "main_tests.R", "out.csv"]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=120)
     rows = pd.read_csv(tmp_path / "out.csv").to_dict("records")
     theirs = {(row["outcome"], row["effect"]): row for row in rows}
-    assert len(theirs) == 8 * len(OUTCOMES)
-    for outcome in OUTCOMES:
+    assert len(theirs) == 8 * len(study.outcomes)
+    for outcome in study.outcomes:
         pair = paired(study, outcome)
         for effect in mixed_anova(pair):
             row = theirs[outcome, effect.effect]
