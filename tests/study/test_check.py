@@ -105,7 +105,7 @@ def test_words_that_cannot_be_seen_fail_it(short: Path, capsys: pytest.CaptureFi
 
 
 async def test_a_page_longer_than_the_screen_is_looked_at_to_its_end(tmp_path: Path) -> None:
-    body = "\n\n".join(f"Paragraph {number} of many." for number in range(60))
+    body = "\n\n".join(f"Paragraph {number} of many." for number in range(30))
     long, frame = Page("Thanks", body), Frame(ScreenSize(), shipped_texts().words)
     async with rehearsal.Showing(LOOK).run_test(size=(120, 40)) as pilot:
         last = await rehearsal.shown(pilot, "", lambda: PageScreen(frame, long), body)

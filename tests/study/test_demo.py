@@ -10,7 +10,7 @@ import pytest
 from game.cli import main
 from game.simulation.demonstration import UNDER_WAY
 
-FINISHED = 2
+FINISHED = 1
 
 
 @pytest.fixture(scope="module")
