@@ -15,6 +15,7 @@ from analysis.sources.frames import Floats, StudyData
 from analysis.sources.recorded import Recorded
 from game.tables.rejudging import (
     Asked,
+    Astray,
     GoalEnd,
     Happened,
     Judged,
@@ -142,9 +143,15 @@ def _happened(recorded: Recorded) -> dict[tuple[str, int], list[Happened]]:
     for key, at_ms, want in _timed(recorded.frame("asked"), "want"):
         found[key].append(Asked(at_ms, want))
     rescued = set(_rescues(recorded.frame("victims")))
+    goals = {(*key, at_ms) for key, at_ms, _ in _timed(told[told["reason"] == "goal"], "reason")}
+    missteps = told[told["missteps_under"] > 0].assign(at_ms=told["until_ms"])
+    astray = {(*key, at_ms) for key, at_ms, _ in _timed(missteps, "reason")}
+    for who, round_, at_ms in astray:
+        given_up = (who, round_, at_ms) in goals
+        found[who, round_].append(Astray(at_ms, given_up))
     begun = set()
     for key, at_ms, _ in _timed(told[told["reason"] == "goal"], "reason"):
-        if key in begun:
+        if key in begun and (*key, at_ms) not in astray:
             found[key].append(GoalEnd(at_ms, (*key, at_ms) in rescued))
         begun.add(key)
     return found

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import msgspec
 
+from game.coach.acts import Level
 from game.coach.levels import LevelState
 from game.coach.presets import Preset, preset
 from game.tables.mission_tables import level_name
@@ -32,6 +33,13 @@ class Lost(NamedTuple):
     """The rescuer was noticed to be lost at mission time `at_ms`."""
 
     at_ms: int
+
+
+class Astray(NamedTuple):
+    """The rescuer made a misstep at mission time `at_ms`, for which the goal may be `given_up`."""
+
+    at_ms: int
+    given_up: bool
 
 
 class Asked(NamedTuple):
@@ -77,13 +85,13 @@ def with_prior_mass(comprehension: float, recorded: float, other: float) -> floa
     return odds * comprehension / (odds * comprehension + 1 - comprehension)
 
 
-Happened = Judged | Lost | Asked | GoalEnd
+Happened = Judged | Lost | Astray | Asked | GoalEnd
 """What Algorithm 1 takes account of."""
 
 
 def levels_under(rule: Preset, happened: Iterable[Happened]) -> Iterator[tuple[int, LevelName]]:
     """When each level came into force, beginning with the first at 0 ms. At a tie the end of a goal
-    goes first and being lost last, as in a mission."""
+    goes first, and being lost or astray last, as in a mission."""
     state = LevelState.first(rule)
     yield 0, level_name(state.level)
     for what in sorted(happened, key=lambda it: (it.at_ms, _TIES.index(type(it)))):
@@ -93,7 +101,7 @@ def levels_under(rule: Preset, happened: Iterable[Happened]) -> Iterator[tuple[i
             yield what.at_ms, level_name(state.level)
 
 
-_TIES = (GoalEnd, Asked, Judged, Lost)
+_TIES = (GoalEnd, Asked, Judged, Lost, Astray)
 
 
 def _after(state: LevelState, rule: Preset, what: Happened) -> LevelState:
@@ -106,3 +114,7 @@ def _after(state: LevelState, rule: Preset, what: Happened) -> LevelState:
             return state.asked(want)
         case Lost():
             return state.lowered() if rule.lowers_when_lost else state
+        case Astray(given_up=given_up):
+            if rule.lowers_when_lost and state.level is Level.C3:
+                state = state.lowered()
+            return state.given_up() if given_up else state
