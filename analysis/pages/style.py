@@ -15,6 +15,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 INK = "#222222"
 SHADE = "#ededed"
@@ -99,8 +100,9 @@ def captioned(name: str, figure: Figure, caption: str, *, simulated: bool) -> Ca
         bottom = 0.17 / figure.get_figheight()
         figure.text(0.01, 0.02 / figure.get_figheight(), SIMULATED, fontsize=7, weight="bold",
                     color=VERMILION, va="bottom", ha="left")  # fmt: skip
-    figure.set_layout_engine("constrained", rect=(0, bottom, 1, 1 - bottom))
-    figure.draw_without_rendering()
+    layout = ConstrainedLayoutEngine(rect=(0, bottom, 1, 1 - bottom))
+    figure.set_layout_engine(layout)
+    layout.execute(figure)
     figure.set_layout_engine("none")  # laid out once, whatever it is written to
     return Captioned(name, figure, f"{SIMULATED}. {caption}" if simulated else caption)
 
