@@ -198,14 +198,37 @@ def test_completion_of_an_unknown_shell(capsys: Capture, monkeypatch: pytest.Mon
         ("ana compare --buildings harbour,f", ["harbour,foundry"]),
     ],
 )
-def test_the_shell_gets_its_completions(words: str, expected: list[str]) -> None:
-    env = os.environ | {
+def test_the_shell_gets_its_completions(
+    words: str, expected: list[str], capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in asked_by_bash(words).items():
+        monkeypatch.setenv(name, value)
+    with pytest.raises(SystemExit):
+        main([])
+    assert [line.partition(",")[2] for line in capsys.readouterr().out.splitlines()] == expected
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [("ana doc", "plain,doctor\n"), ("ana play --victims s", "plain,seeded\n")],
+)
+def test_a_shell_is_answered_by_a_process(words: str, expected: str) -> None:
+    run = subprocess.run(
+        [sys.executable, "-m", "game"],
+        env=os.environ | asked_by_bash(words),
+        capture_output=True,
+        text=True,
+    )
+    assert run.stdout == expected
+
+
+def asked_by_bash(words: str) -> dict[str, str]:
+    """The environment in which bash asks for what completes the last of these words."""
+    return {
         "_ANA_COMPLETE": "bash_complete",
         "COMP_WORDS": words,
         "COMP_CWORD": str(len(words.split()) - 1),
     }
-    run = subprocess.run([sys.executable, "-m", "game"], env=env, capture_output=True, text=True)
-    assert [line.partition(",")[2] for line in run.stdout.splitlines()] == expected
 
 
 def in_a_terminal(args: list[str], keys: list[bytes], env: dict[str, str]) -> tuple[int, str]:

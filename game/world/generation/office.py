@@ -7,6 +7,7 @@ try has its own stream of random numbers, so that a seed gives the same building
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from functools import lru_cache
 from itertools import count, islice
 from random import Random
 from statistics import mean
@@ -71,6 +72,7 @@ class _Room(NamedTuple):
     floor: tuple[Cell, ...]
 
 
+@lru_cache(maxsize=32)
 def generated(seed: int) -> Building:
     """The office of a seed, with about 20 named rooms, 7 red and 13 blue victims."""
     name = f"{Random(f'generation/name/{seed}').choice(BUILDINGS)} {seed}"
