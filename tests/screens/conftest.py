@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 
 import pytest
+from textual.css.model import RuleSet
+from textual.css.stylesheet import Stylesheet
 from textual.pilot import Pilot
 
 from game.coach.spec import CoachSpec, parse_coach
@@ -34,6 +36,23 @@ o = blue victim
 """
 
 Opened = AbstractAsyncContextManager[tuple[AnaApp, Pilot[None]]]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def styles_parsed_once() -> Iterator[None]:
+    """Textual parses all styles twice in each app; here equal ones are parsed once for all apps."""
+    kept: dict[object, list[RuleSet]] = {}
+    parse = Stylesheet._parse_rules
+
+    def once(self: Stylesheet, css: str, *args: object, **kwargs: object) -> list[RuleSet]:
+        key = (css, args, frozenset(kwargs.items()), frozenset(self._variables.items()))
+        if key not in kept:
+            kept[key] = parse(self, css, *args, **kwargs)  # type: ignore[arg-type]
+        return kept[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Stylesheet, "_parse_rules", once)
+        yield
 
 
 @pytest.fixture
