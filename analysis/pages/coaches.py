@@ -376,13 +376,16 @@ def switching_figure(comparison: Comparison, world: str) -> Captioned:
                 axes.annotate(
                     _must_save(cell.coach),
                     (cell.switches, cell.rescues),
-                    xytext=(0, -24),
-                    textcoords="offset points",
+                    xytext=(cell.switches, 0.02),
+                    textcoords=axes.get_xaxis_transform(),
+                    arrowprops={"arrowstyle": "-", "linewidth": 0.5, "linestyle": ":"},
                     ha="center",
-                    va="top",
+                    va="bottom",
                     fontsize=7,
                 )
             _mark(axes, [c for c in cells if not _must_save(c.coach)], _MARKERS[1:])
+        low, high = panels[0][0].get_ylim()
+        panels[0][0].set_ylim(low - 0.12 * (high - low), high)  # for the labels, below all points
         _name_coaches(figure)
         return captioned(
             "coaches-switching",
