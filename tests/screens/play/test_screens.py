@@ -37,7 +37,7 @@ from game.world.events import Acted, Action
 from game.world.geometry import Heading
 from game.world.reading import parse_building
 from game.world.settings import MissionSettings
-from tests.screens.pilots import Open, press, shown, until
+from tests.screens.pilots import Open, painted, press, shown, until
 
 
 def showing(app: AnaApp, screen: Screen[Any]) -> bool:
@@ -210,7 +210,8 @@ async def test_a_small_window_can_be_left_and_what_was_played_is_kept(open_app: 
 
 async def test_a_window_too_small_from_the_start(open_app: Open) -> None:
     async with open_app(size=(50, 10)) as (_, pilot):
-        await until(pilot, TooSmall)
+        covered = await until(pilot, TooSmall)
+        assert "Ctrl+C quits." in " ".join(painted(covered).split()), "no line is cut"
         await pilot.resize_terminal(80, 24)
         mission = await until(pilot, MissionScreen)
         await pilot.pause()
