@@ -141,6 +141,13 @@ class FreePlayScreen(MissionScreen):
         self._keys.set_keys((text, ""))
         self._telling = self.set_timer(ASKED_S, self._name_keys)
 
+    def action_act(self, name: str) -> None:
+        super().action_act(name)
+        if name != "triage" or self.live.paused or self.live.observation().treatment is not None:
+            return
+        near = self.live.run.mission.victim_in_reach()
+        self.tell("Nobody is in reach" if near is None else "It is too late for this red victim")
+
     def show(self, observation: Observation) -> None:
         observation = deaths_told(self._repeats.of(observation), self.live.settings)
         said = observation.guidance or Guidance("")

@@ -254,7 +254,7 @@ class MissionScreen(LiveScreen):
     def asked_words(self, want: LevelWish, *, answered: bool) -> str:
         """What is shown when the level key has been pressed; `answered` is whether the bar says
         something else now."""
-        return f"You asked for {want} words" if answered else "The coach keeps these words"
+        return f"You asked for {want} words" if answered else f"The coach has no {want} words"
 
     def action_ask(self, want: LevelWish) -> None:
         if self._over:

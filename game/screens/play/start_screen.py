@@ -28,12 +28,15 @@ WIDEST = 76
 """Columns of the card where the window has more."""
 _COACHES = {
     "ana": "ana says more or less, as you seem lost or seem to know your way.",
-    "knowledge": "knowledge says more or less, by which rooms you seem to know.",
+    "knowledge": "knowledge names a room to find out whether you know it, and leads you step by "
+    "step where you do not.",
     "pace": "pace plans the way for how fast you walk.",
     "static C1": "This coach tells you every step.",
     "static C2": "This coach tells you which doors and hallways you pass.",
     "static C3": "This coach only names rooms: it helps to know the map.",
 }
+_FIRST = {"ana": 2, "knowledge": 3}
+"""The level at which coaches that adapt usually begin."""
 
 
 def card_rows(
@@ -51,7 +54,7 @@ def card_rows(
     time = clock_text(rules.duration_ms)
     coach = _COACHES.get(coach_name(spec), "")
     bar = f"The yellow bar at the top tells you where to go. {coach}".strip()
-    example = example_of(spec.level or 1)
+    example = example_of(spec.level or _FIRST.get(spec.kind, 1))
     return [
         ((building.name, "title"), (f"   {about}", "quiet")),
         ((f"{reds + blues} people are hurt. You have {time} to find and treat them.", "strong"),),

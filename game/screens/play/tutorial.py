@@ -45,6 +45,10 @@ DONE = Page(
 )
 
 
+RESCUED = "You rescued the victim."
+"""What is said once a leg is done."""
+
+
 class LegMission(LiveMission):
     """A leg in the journal of the tutorial, which outlives it."""
 
@@ -62,9 +66,14 @@ class LegScreen(FreePlayScreen):
 
     live: LegMission
 
-    def __init__(self, live: LegMission, journal: Path) -> None:
+    def __init__(self, live: LegMission, journal: Path, greeting: str = "") -> None:
         super().__init__(live, journal)
         self.view.status.timed = False
+        self._greeting = greeting
+
+    def on_mount(self) -> None:
+        if self._greeting:
+            self.tell(self._greeting)
 
     def refresh_view(self) -> None:
         super().refresh_view()
@@ -101,18 +110,20 @@ class Tutorial:
             yield self._lesson(lessons.walking, Signs(self._explained))
             for leg in self._legs:
                 if leg.opens_kind:
-                    yield self._lesson(lessons.of(leg.level))
+                    yield self._lesson(lessons.of(leg.level), before=RESCUED if leg.number else "")
                 run, journal = self._begin(leg)
                 assert isinstance(journal.sink, FileSink)
-                yield LegScreen(LegMission(run, journal), journal.sink.path)
+                greeting = "" if leg.opens_kind else f"{RESCUED} Find the next one."
+                yield LegScreen(LegMission(run, journal), journal.sink.path, greeting)
                 self._stand = run.mission.position, run.mission.heading
             yield LessonScreen(DONE)
         finally:
             self._end()
 
-    def _lesson(self, lesson: Lesson, *below: Widget) -> LessonScreen:
+    def _lesson(self, lesson: Lesson, *below: Widget, before: str = "") -> LessonScreen:
         shown = [PlanMap(self._building)] if lesson.map else []
-        page = Page(title=lesson.title, body=lesson.body.replace(_CLOCK, ""))
+        text = lesson.body.replace(_CLOCK, "")
+        page = Page(title=lesson.title, body=f"{before}\n\n{text}" if before else text)
         return LessonScreen(page, *below, *shown)
 
     def _begin(self, leg: PracticeLeg) -> tuple[MissionRun, Journal]:

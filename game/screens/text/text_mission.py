@@ -259,7 +259,7 @@ class TextMission:
         before = self._run.observation().guidance
         self._run.ask_level(want, self._now_ms)
         answered = self._run.observation().guidance != before
-        self._say(f"You asked for {want} words." if answered else "The coach keeps these words.")
+        self._say(f"You asked for {want} words." if answered else f"There are no {want} words.")
         self._report()
 
     def _act(self, action: Action) -> None:

@@ -124,7 +124,7 @@ class Notice(ModalScreen[None]):
 
 def leave_question() -> Question:
     """What is asked before a mission is left."""
-    text = "Your progress so far is saved."
+    text = "It ends here. What happened so far is saved."
     return Question("Leave the mission?", text, yes="Leave", no="Stay")
 
 

@@ -301,6 +301,13 @@ def test_nobody_is_said_to_have_died_where_all_reds_were_reached(ward: Building)
     assert plain(status_rows(after, rules, 26))[3].endswith("out of time"), "as in a study"
 
 
+async def test_a_treatment_that_does_not_begin_is_explained(open_app: Open) -> None:
+    async with open_app() as (_, pilot):
+        mission = await until(pilot, MissionScreen)
+        await press(pilot, "space")
+        assert "Nobody is in reach" in " ".join(plain(mission.query_one(KeyLine).rows))
+
+
 async def test_what_the_level_key_asked_for_covers_nothing(open_app: Open) -> None:
     async with open_app(level_key=True) as (_, pilot):
         mission = await until(pilot, MissionScreen)

@@ -17,7 +17,7 @@ from game.screens.play.app import AnaApp
 from game.screens.play.home import HomeScreen
 from game.screens.play.journal_list import journal_text
 from game.screens.play.lesson_screen import LessonScreen
-from game.screens.play.tutorial import DONE, LegScreen
+from game.screens.play.tutorial import DONE, RESCUED, LegScreen
 from game.screens.widgets.stillness import STILL_S
 from game.session.verification import verify
 from game.world import load_building
@@ -55,6 +55,8 @@ async def test_the_tutorial_goes_through_three_ways_of_telling(
             screen = app.screen
             if isinstance(screen, LegScreen):
                 legs += 1
+                if legs % 2 == 0:
+                    assert f"{RESCUED} Find the next one." in painted(screen)
                 await walk(pilot, screen)
             elif isinstance(screen, LessonScreen):
                 titles.append(screen._page.title)
