@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, permutations
 from random import Random
 
 from game.world.building import Severity, VictimSite
@@ -29,7 +29,8 @@ SEARCH_ROUNDS = 40
 """How many times one start of the search is improved at most."""
 
 FEW = 4
-"""An order of so few, as near the end of a mission, is also tried with one of them left out."""
+"""An order of so few, as near the end of a mission, is also tried with one of them left out. Where
+so few wait, all orders are tried."""
 
 _SEGMENT = 3
 
@@ -174,14 +175,19 @@ class _Search:
 
     def best(self, before: Iterable[str], random: Random) -> _Order:
         """The best order found from two starts: one that puts in the earliest deadlines first, and
-        the order followed `before` (a random one where there is none)."""
+        the order followed `before` (a random one where there is none). Of a few victims no order is
+        worth more."""
         numbers = self._by_due()
         first = self._improved(self.earliest_due())
         followed = self.served(self.numbered(before))
         if not followed:
             random.shuffle(numbers)
         second = self._improved(self._inserted(followed, numbers))
-        return self._exchanged(max(first, second, key=self.value))
+        found = self._exchanged(max(first, second, key=self.value))
+        if len(numbers) > FEW:
+            return found
+        best = max(permutations(numbers), key=self.value)
+        return found if self.value(found)[0] >= self.value(best)[0] else self.served(best)
 
     def earliest_due(self) -> _Order:
         """An order to begin with, into which the earliest deadlines are put first. Those whom it
