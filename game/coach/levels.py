@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Literal
 
 from game.coach.acts import Level
@@ -43,9 +44,14 @@ def granted(want: LevelWish, before: Level, chosen: Level | None = None) -> Leve
 def thresholds(preset: Preset, preference: int) -> tuple[float, float]:
     """Below the first the level goes down, above the second up, for a rescuer with this
     `preference`."""
+    return _shifted(preset.lower_below, preset.raise_above, preference)
+
+
+@cache
+def _shifted(lower_below: float, raise_above: float, preference: int) -> tuple[float, float]:
     shift = SHIFT * preference
-    low, high = preset.lower_below + shift, preset.raise_above + shift
-    return max(LEAST, round(low, DECIMALS)), min(1 - LEAST, round(high, DECIMALS))
+    low, high = round(lower_below + shift, DECIMALS), round(raise_above + shift, DECIMALS)
+    return max(LEAST, low), min(1 - LEAST, high)
 
 
 def verdict(comprehension: float, lower_below: float, raise_above: float) -> Verdict:
@@ -85,7 +91,7 @@ class LevelState:
         """The state after an evaluation that carries evidence."""
         said = verdict(comprehension, *self.thresholds(preset))
         run = self.run + 1 if said == self.latest else 1
-        heard = replace(self, latest=said, run=run)
+        heard = LevelState(self.level, said, run, self.went_down, self.preference)
         if run < preset.agreement:
             return heard
         if preset.rule == "absolute":
