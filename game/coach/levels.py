@@ -50,7 +50,7 @@ def thresholds(preset: Preset, preference: int) -> tuple[float, float]:
 @cache
 def _shifted(lower_below: float, raise_above: float, preference: int) -> tuple[float, float]:
     shift = SHIFT * preference
-    low, high = round(lower_below + shift, DECIMALS), round(raise_above + shift, DECIMALS)
+    low, high = (round(float(it) + shift, DECIMALS) for it in (lower_below, raise_above))
     return max(LEAST, low), min(1 - LEAST, high)
 
 
