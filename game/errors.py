@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 from errno import EACCES, EDQUOT, EFBIG, ENOSPC, EPERM
 from pathlib import Path
 
@@ -36,8 +35,15 @@ class AnaError(Exception):
 def did_you_mean(name: str, names: Iterable[str]) -> str:
     """`Did you mean X?` with the nearest of `names`, whatever its capitals; else empty."""
     known = {one.casefold(): one for one in names}
-    near = get_close_matches(name.casefold(), known, n=1)
-    return f"Did you mean {known[near[0]]}?" if near else ""
+    near = nearest(name.casefold(), known)
+    return f"Did you mean {known[near]}?" if near else ""
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """The one of `names` that is spelt most like `name`; empty where none is much like it."""
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(name, names, 1)), "")
 
 
 def choose_from(name: str, names: Iterable[str], also: str = "") -> str:

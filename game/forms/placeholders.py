@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping
-from difflib import get_close_matches
 from typing import Any
 
-from game.errors import AnaError, choose_from
+from game.errors import AnaError, choose_from, nearest
 
 REQUIRED = (("debrief", "code"),)
 """Pages that must have a fact: without the completion code nobody can be paid."""
@@ -48,7 +47,7 @@ def check_text(text: str, known: Collection[str], place: str) -> None:
             )
     for almost in _ALMOST.finditer(text):
         word, written = almost[1] or almost[2], almost[0].strip()
-        name = next(iter(get_close_matches(word, known, 1)), "")
+        name = nearest(word, known)
         if name and written != f"{{{name}}}":
             raise PlaceholderError(
                 f"'{written}' is not filled in", place=place, hint=f"Write {{{name}}}"

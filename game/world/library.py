@@ -8,7 +8,6 @@ from pathlib import Path
 
 from game.errors import AnaError, choose_from
 from game.world.building import Building
-from game.world.csv_import import import_grid
 from game.world.reading import decode, parse_building
 
 _SHELF = Path(__file__).with_name("buildings")
@@ -64,6 +63,8 @@ def _seed(text: str, name: str) -> int:
 
 
 def _load_grid(path: Path, seed: int) -> Building:
+    from game.world.csv_import import import_grid
+
     beside = (path.with_name(path.stem + suffix) for suffix in _LEGENDS)
     legend = next((candidate for candidate in beside if candidate.is_file()), None)
     return import_grid(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from game.coach.acts import CoachRecord, Level, LevelChanged
 from game.coach.api import Briefing
 from game.coach.comprehension import (
@@ -11,10 +13,12 @@ from game.coach.comprehension import (
 )
 from game.coach.guide import Guide, Occasion
 from game.coach.instructions import Pose
-from game.coach.kinds.ana_by_belief import AnaByBelief
 from game.coach.levels import LevelState
 from game.coach.presets import Preset
 from game.world.geometry import Cell
+
+if TYPE_CHECKING:
+    from game.coach.kinds.ana_by_belief import AnaByBelief
 
 _OCCASIONS: dict[str, tuple[Occasion, ...]] = {
     "step": ("step",),
@@ -83,4 +87,8 @@ class Ana(Guide[LevelState]):
 
 def ana(briefing: Briefing, preset: Preset) -> Ana | AnaByBelief:
     """ANA as `preset` has it."""
-    return AnaByBelief(briefing, preset) if preset.judges == "belief" else Ana(briefing, preset)
+    if preset.judges == "belief":
+        from game.coach.kinds.ana_by_belief import AnaByBelief
+
+        return AnaByBelief(briefing, preset)
+    return Ana(briefing, preset)

@@ -16,6 +16,7 @@ from game.screens.widgets.aside import aside
 LATER = (
     "concurrent.futures.thread",
     "game.coach.kinds.ana",
+    "game.coach.kinds.ana_by_belief",
     "game.coach.kinds.knowledge",
     "game.coach.kinds.pace",
     "game.coach.kinds.static",
