@@ -101,9 +101,11 @@ def total_rows(story: MissionStory) -> list[Row]:
         first = (*first, (f"   {story.score} points", "big"))
     moves = len(story.path) - 1
     told = f"steps {moves} · instructions {story.instructions} · missteps {story.missteps}"
-    left = f"Left after {clock_text(story.until_ms)}. " if story.left else ""
     where = ", ".join(filter(None, (story.building.name, story.unusual)))
-    return [first, ((left, "big"), (f"{where} · {told}", "quiet"))]
+    rows: list[Row] = [first, ((f"{where} · {told}", "quiet"),)]
+    if story.left:
+        rows.insert(0, ((f"Left after {clock_text(story.until_ms)}.", "big"),))
+    return rows
 
 
 def fate_rows(story: MissionStory, columns: int) -> list[Row]:
