@@ -104,7 +104,7 @@ def total_rows(story: MissionStory) -> list[Row]:
     where = ", ".join(filter(None, (story.building.name, story.unusual)))
     rows: list[Row] = [first, ((f"{where} · {told}", "quiet"),)]
     if story.left:
-        rows.insert(0, ((f"Left after {clock_text(story.until_ms)}.", "big"),))
+        rows.insert(1, ((f"Left after {clock_text(story.until_ms)}.", "big"),))
     return rows
 
 
