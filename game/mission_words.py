@@ -87,3 +87,9 @@ class MissionWords(_Words, frozen=True):
 
 
 ENGLISH = MissionWords()
+
+
+def asked_words(want: str, *, answered: bool) -> str:
+    """What is told in free play when `simpler` or `shorter` words were asked for; `answered` is
+    whether others stand on the bar then."""
+    return f"You asked for {want} words" if answered else f"The coach has no {want} words"

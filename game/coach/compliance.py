@@ -48,11 +48,10 @@ class Compliance:
 
     `most`, `least` and `distance` are the largest cost-to-go since then, the smallest and the
     present one; `rising` is whether the last action raised it other than on the way that was told,
-    which happened at `at_ms`. Until
-    `read_ms` the words cannot have been read; until `notice_ms` no notice may replace the last;
-    `nearer_ms` is when the rescuer last came nearer, or was told something new, and `patience_ms`
-    how long after that they are lost. `warned` is whether a strict misstep was corrected since an
-    instruction was completed.
+    which happened at `at_ms`. Until `read_ms` the words cannot have been read; until `notice_ms` no
+    notice may replace the last; `nearer_ms` is when the rescuer last came nearer, or was told
+    something new, and `patience_ms` how long after that they are lost. `warned` is whether a strict
+    misstep was corrected since an instruction was completed.
     """
 
     level: Level

@@ -117,15 +117,17 @@ class MissionRun:
         finally:
             self._hand_over()
 
-    def ask_level(self, want: LevelWish, at_ms: int) -> None:
-        """The rescuer asks the coach for simpler or shorter words. Raises ValueError where the
-        rules do not allow it."""
+    def ask_level(self, want: LevelWish, at_ms: int) -> bool:
+        """The rescuer asks the coach for simpler or shorter words: whether others stand on the bar
+        then. Raises ValueError where the rules do not allow it."""
         if not self.mission.settings.level_key:
             raise ValueError("the level key is not allowed in this mission")
         try:
             self._advance(at_ms)
+            before = self.coach.guidance
             if not self.ended:
                 self._tell([LevelAsked(at_ms, want)])
+            return self.coach.guidance != before
         finally:
             self._hand_over()
 

@@ -55,6 +55,11 @@ class Guidance:
     notice: str = ""
     completed: int = field(default=0, compare=False)
 
+    def repeats(self, before: Guidance) -> bool:
+        """Whether it is a new instruction in the words of the one `before`, which was carried
+        out."""
+        return self.completed > before.completed and self.text == before.text
+
 
 class Observation(NamedTuple):
     """The rescuer's observation o_t = FOV(s_t) with the instruction on screen (paper 5.1.3).

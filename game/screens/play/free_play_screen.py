@@ -68,10 +68,9 @@ class Repeats:
         guidance = observation.guidance
         if guidance is None:
             return observation
-        done = guidance.completed > self._before.completed
-        if done or guidance.text != self._before.text:
-            self.again = done and guidance.text == self._before.text
-            self._before = guidance
+        repeated = guidance.repeats(self._before)
+        if repeated or guidance.text != self._before.text:
+            self.again, self._before = repeated, guidance
         if not self.again:
             return observation
         return observation._replace(guidance=replace(guidance, text=f"Again: {guidance.text}"))

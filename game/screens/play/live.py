@@ -69,10 +69,12 @@ class LiveMission:
         if not self.paused:
             self.run.press(action, self._clock.now_ms())
 
-    def ask_level(self, want: LevelWish) -> None:
-        """Ask the coach for other words now. Nothing happens while the mission is paused."""
-        if not self.paused and not self.ended:
-            self.run.ask_level(want, self._clock.now_ms())
+    def ask_level(self, want: LevelWish) -> bool:
+        """Ask the coach for other words now: whether others stand on the bar then. Nothing happens
+        while the mission is paused."""
+        if self.paused or self.ended:
+            return False
+        return self.run.ask_level(want, self._clock.now_ms())
 
     def advance(self) -> None:
         """Let happen what is due."""

@@ -18,7 +18,7 @@ from textual.widget import Widget
 
 from game.errors import AnaError
 from game.journal.journal_error import JournalError
-from game.mission_words import ENGLISH, MissionWords
+from game.mission_words import ENGLISH, MissionWords, asked_words
 from game.screens.play.live import LiveMission
 from game.screens.play.missionview import MissionView
 from game.screens.widgets.dialogs import Help, Notice, Pause, leave_question
@@ -254,16 +254,15 @@ class MissionScreen(LiveScreen):
     def asked_words(self, want: LevelWish, *, answered: bool) -> str:
         """What is shown when the level key has been pressed; `answered` is whether the bar says
         something else now."""
-        return f"You asked for {want} words" if answered else f"The coach has no {want} words"
+        return asked_words(want, answered=answered)
 
     def action_ask(self, want: LevelWish) -> None:
         if self._over:
             return
-        before = self.live.observation().guidance
+        answered = False
         with self.kept():
-            self.live.ask_level(want)
+            answered = self.live.ask_level(want)
         self.refresh_view()
-        answered = self.live.observation().guidance != before
         self.tell(self.asked_words(want, answered=answered))
 
     def tell(self, text: str) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from game.errors import AnaError
 from game.screens.play.options import PlayOptions
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from game.journal.writer import Journal
     from game.screens.play.mission_screen import LiveScreen, MissionScreen
     from game.screens.play.watch_screen import WatchScreen
+    from game.session.run import MissionRun
 
 
 class Opening:
@@ -68,19 +69,8 @@ class Opening:
     def _mission(self, options: PlayOptions, memorised_ms: int) -> MissionScreen:
         from game.screens.play.free_play_screen import FreePlayScreen
         from game.screens.play.live import LiveMission
-        from game.screens.widgets.terminal import this_terminal
-        from game.session.playing import start_free_play
 
-        run, journal = start_free_play(
-            options.building,
-            options.settings,
-            options.spec,
-            options.seed,
-            options.log_dir,
-            this_terminal(*self._stage.size),
-            variant=options.variant,
-            memorised_ms=memorised_ms,
-        )
+        run, journal = self._started(options, memorised_ms=memorised_ms)
         return FreePlayScreen(LiveMission(run, journal), _path(journal), self._stage.preferences)
 
     def _watching(self, options: PlayOptions) -> WatchScreen:
@@ -88,25 +78,29 @@ class Opening:
         from game.screens.play.coachpanel import OverheardCoach
         from game.screens.play.live import LiveMission
         from game.screens.play.watch_screen import WatchScreen
+
+        building, who = options.building, character(options.rescuer)
+        run, journal = self._started(options, rescuer=who.name, build=OverheardCoach.build)
+        coach = run.coach
+        assert isinstance(coach, OverheardCoach)
+        rescuer = who.make(building, options.settings, options.seed)
+        return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
+
+    def _started(self, options: PlayOptions, **more: Any) -> tuple[MissionRun, Journal]:
+        """The mission and its journal; `more` is what only some missions have."""
         from game.screens.widgets.terminal import this_terminal
         from game.session.playing import start_free_play
 
-        building, who = options.building, character(options.rescuer)
-        run, journal = start_free_play(
-            building,
+        return start_free_play(
+            options.building,
             options.settings,
             options.spec,
             options.seed,
             options.log_dir,
             this_terminal(*self._stage.size),
-            rescuer=who.name,
-            build=OverheardCoach.build,
             variant=options.variant,
+            **more,
         )
-        coach = run.coach
-        assert isinstance(coach, OverheardCoach)
-        rescuer = who.make(building, options.settings, options.seed)
-        return WatchScreen(LiveMission(run, journal), _path(journal), rescuer, coach, who)
 
 
 def _path(journal: Journal) -> Path:

@@ -14,6 +14,7 @@ from game.coach.api import Briefing, Coach
 from game.coach.listening import ListenedCoach
 from game.coach.spec import CoachSpec, build_coach
 from game.journal.writer import Journal
+from game.mission_words import asked_words
 from game.rescuers.literal.grammar import Landmark
 from game.screens.text.phrases import clock_words, counted, joined
 from game.screens.text.surroundings import (
@@ -256,10 +257,8 @@ class TextMission:
         if not self._run.mission.settings.level_key:
             self._say("The coach cannot be asked in this mission.")
             return
-        before = self._run.observation().guidance
-        self._run.ask_level(want, self._now_ms)
-        answered = self._run.observation().guidance != before
-        self._say(f"You asked for {want} words." if answered else f"There are no {want} words.")
+        answered = self._run.ask_level(want, self._now_ms)
+        self._say(f"{asked_words(want, answered=answered)}.")
         self._report()
 
     def _act(self, action: Action) -> None:
@@ -351,8 +350,7 @@ class TextMission:
 
     def _tell_bar(self) -> None:
         guidance = self._run.observation().guidance or Guidance("")
-        done = guidance.completed > self._guidance.completed
-        repeated = done and guidance.text == self._guidance.text
+        repeated = guidance.repeats(self._guidance)
         if guidance == self._guidance and not repeated:
             return
         if guidance.notice and guidance.notice != self._guidance.notice:
