@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from game.journal.records import Covered, Debriefed, Interruption, Preflighted, 
 from game.study.folder import Identity, Study, open_study
 from game.study.links import LINK, panel_pseudonym, study_key, token
 from game.study.lock import SessionLock
-from game.web.hosted import Goodbye, Limits
+from game.web.hosted import COVERED, Goodbye, Limits
 from tests.study.participant import TerminalParticipant
 from tests.study.people import cut_off, finished_study, journal_of, small_study
 from tests.study.server import ANA
@@ -28,6 +29,8 @@ from tests.web.served import Served, until
 READY = "arrow keys"
 """On the first screen of a study; nothing is recorded before someone has agreed."""
 MAP = "Memorise the map"
+TO_NOTICE_S = 1.0
+"""In so long a program has seen that its window has another size, even on a busy machine."""
 P01, P02 = (Identity("live", name) for name in ("P01", "P02"))
 
 
@@ -133,6 +136,9 @@ def test_a_dropped_line_finds_the_running_program_and_the_gap_is_covered_time(
         programs = served.programs("P02")
         terminal.drop()
         terminal.wait_closed()
+    (program,) = programs
+    until(lambda: window_of(program) == COVERED)
+    time.sleep(TO_NOTICE_S)
     terminal = enter(served, "P02")
     with terminal:
         terminal.wait_for(MAP)
@@ -143,6 +149,16 @@ def test_a_dropped_line_finds_the_running_program_and_the_gap_is_covered_time(
     kinds = [type(entry.record) for entry in journal_of(served.study, P02).entries]
     assert Covered in kinds
     assert kinds.count(Resumed) == 1, "from the cut before, not from the dropped line"
+
+
+def window_of(program: int) -> tuple[int, int]:
+    """The size that a program's terminal has now, in columns and rows."""
+    line = os.open(f"/proc/{program}/fd/0", os.O_RDONLY | os.O_NOCTTY)
+    try:
+        size = os.get_terminal_size(line)
+        return size.columns, size.lines
+    finally:
+        os.close(line)
 
 
 def journal_path(study: Study, identity: Identity) -> Path:
